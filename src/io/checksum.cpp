@@ -6,11 +6,11 @@
 
 namespace {
 
-/// FNV-1a (Fowler, Noll and Vo) with 64 bits, by words in place of bytes.
+/// The 64-bit hash FNV-1a (Fowler, Noll and Vo), fed with words instead of bytes.
 class Hash {
  public:
   void add(std::uint64_t word) { state_ = (state_ ^ word) * prime; }
-  /// 0 and -0 are the same.
+  /// Adds a number; 0 and -0 count as equal.
   void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }
   std::uint64_t value() const { return state_; }
 

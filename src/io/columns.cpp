@@ -19,9 +19,9 @@ using Names = std::array<std::string_view, 3>;
 using Places = std::array<std::size_t, 3>;
 
 constexpr Names position = {"x", "y", "z"};
-constexpr std::size_t longest_list = 200;  // characters of the names in a message
+constexpr std::size_t longest_list = 200;  // an error lists names of fields up to about this many characters
 
-/// Index of the three fields, each with one value per point.
+/// Finds three fields with one value per point; nullopt if one is missing.
 std::optional<Places> find(const std::vector<Field>& fields, const Names& names) {
   Places found = {};
   for (int c = 0; c < 3; ++c) {
@@ -47,7 +47,7 @@ bool holdNormals(const Columns& columns) {
   return any;
 }
 
-/// Converts the three fields to double and marks them as used.
+/// Converts the fields at three places to double, and marks them as used.
 Points take(const Columns& columns, const Places& found, std::vector<bool>& used) {
   Points points(columns.rows, 3);
   for (int c = 0; c < 3; ++c) {

@@ -10,7 +10,7 @@
 
 namespace tufted::io {
 
-/// Calls `visit` with a zero of the type that `type` names.
+/// Calls `visit` with a zero of the C++ type that `type` stands for.
 template <class Visitor>
 decltype(auto) visitType(FieldType type, Visitor&& visit) {
   switch (type) {
@@ -43,34 +43,34 @@ std::size_t sizeOf(FieldType type);
 bool isInteger(FieldType type);
 /// The value at `bytes`, in native byte order. 64-bit integers beyond 2^53 are rounded.
 double valueOf(FieldType type, const std::byte* bytes);
-/// Parses a token and stores it at `bytes`. False if it is not a number of that type.
+/// Parses a token and stores it at `bytes`. Returns false if it is not a number of that type.
 bool parseInto(std::string_view token, FieldType type, std::byte* bytes);
 
-/// The values of a file per point, before x, y, z and the normals are separated from other fields.
+/// All values per point of a file, before positions and normals are separated from other fields.
 struct Columns {
   std::vector<Field> fields;
   std::int64_t rows = 0;
 };
 
-/// Makes room for `rows` values in each field.
+/// Allocates the values of `rows` points in each field.
 void allocate(Columns& columns, std::int64_t rows);
 
-/// Gives the fields the names that are known and checks that x, y, z are among them, before their values are read.
-/// @param line line of the header that names the fields
-/// @throws IoError without x, y, z
+/// Applies nameFields() and checks that there are x, y and z. Called before values are read.
+/// @param line the header's line with the names, for errors
+/// @throws IoError if x, y or z is missing
 void nameColumns(const std::filesystem::path& path, std::int64_t line, std::vector<Field>& fields);
 
-/// Names columns without names by their places: x y z, normals if the next three are unit vectors, column6, column7,
-/// ...
-/// @param are_normals whether the next three are normals of any length
+/// Names columns of a file without names by their places: x, y, z, then nx, ny, nz if these are unit vectors, and
+/// column3 or column6 and so on for the others.
+/// @param are_normals whether columns 3 to 5 are normals whatever their length
 void nameByPlace(Columns& columns, bool are_normals);
 
-/// Moves x, y, z to `points`, a full set of nx, ny, nz to `normals`, and all other fields to `fields`, except padding
-/// (named "_"). Width and height are those of an unorganized cloud.
-/// @param columns with the names that nameColumns() or nameByPlace() gave
+/// Moves x, y, z to `points`; nx, ny, nz, if all three are there, to `normals`; and all other fields except padding
+/// (named "_") to `fields`. Width and height become those of an unorganized cloud.
+/// @param columns named by nameColumns() or nameByPlace()
 Geometry toGeometry(Columns&& columns);
 
-/// Checks that a number of rows fits into int, which numbers the points. @throws IoError if it does not
+/// Returns `rows` if it fits into int, the type of indices. @throws IoError if it does not
 std::int64_t checkedRows(const std::filesystem::path& path, std::int64_t rows);
 
 }  // namespace tufted::io

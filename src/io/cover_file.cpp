@@ -14,8 +14,8 @@ namespace tufted::io {
 
 namespace {
 
-/// Refuses the first side whose mate is another's, before there is memory for those behind it: nothing that repeats is
-/// a gluing, so no file holds many more sides than it has bytes.
+/// Reads the mate of each side. Stops at the first side that is glued to itself or not back, to bound the memory: a
+/// file holds few more different numbers than bytes.
 std::vector<int> readGlue(NpzArray& array, const std::filesystem::path& path) {
   const double last = static_cast<double>(array.size()) - 1;
   std::vector<int> glue;

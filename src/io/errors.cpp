@@ -23,7 +23,7 @@ void refuseErrno(const std::filesystem::path& path, const std::string& action, i
 }
 
 std::string quote(std::string_view text) {
-  // Characters of a file that an error quotes.
+  // Most characters of a file that an error quotes.
   constexpr std::size_t longest = 32;
   std::string quoted = "'";
   for (const char c : text.substr(0, longest)) quoted += c >= ' ' && c <= '~' ? c : '?';

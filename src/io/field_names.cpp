@@ -13,8 +13,8 @@ using Names = std::map<std::string, std::string, std::less<>>;
 
 const std::set<std::string, std::less<>> colors = {"red", "green", "blue"};
 
-/// The letters and digits of a name in lower case, by which names are compared: normal_x and NormalX are one. A colon
-/// stays in front of a last digit.
+/// The letters and digits of a name in lower case, so that normal_x and NormalX compare equal. A colon before a final
+/// digit is kept.
 std::string lettersOf(std::string_view name) {
   std::string letters;
   for (std::size_t i = 0; i < name.size(); ++i)
@@ -35,8 +35,8 @@ void addAxes(Names& names, const std::array<const char*, 3>& axes, const std::ve
   }
 }
 
-/// Names by the letters of what programs write: PCL, PDAL, CloudCompare, MeshLab, ParaView and VeloView, surveyors.
-/// ParaView and VeloView number the values of one array behind a colon.
+/// Maps lettersOf() of names by PCL, PDAL, CloudCompare, MeshLab, ParaView, VeloView and surveyors to ours. ParaView
+/// and VeloView append a colon and a number to the values of one array.
 Names makeNames() {
   Names names;
   for (const char* name : {"rgb",
@@ -86,7 +86,7 @@ Names makeNames() {
                                                                   {"g", "green"},
                                                                   {"b", "blue"}})
     names[other] = name;
-  for (const std::string stem : {"points", "pointsmxyz"})  // as ParaView does now
+  for (const std::string stem : {"points", "pointsmxyz"})  // names of newer ParaView versions
     for (std::size_t c = 0; c < 3; ++c) names[stem + std::to_string(c)] = std::string(1, "xyz"[c]);
   for (const std::string stem : {"diffuse", "color", "colour", "vertex"})
     for (const char* channel : {"red", "green", "blue", "alpha"}) names[stem + channel] = channel;
@@ -96,11 +96,11 @@ Names makeNames() {
   return names;
 }
 
-/// The name that is known for another, or an empty one.
+/// Our name for a name in a file; empty if it is not known.
 std::string knownName(std::string_view name) {
   static const Names names = makeNames();
   std::string letters = lettersOf(name);
-  if (letters.starts_with("scalar")) letters.erase(0, 6);  // CloudCompare's fields in PLY
+  if (letters.starts_with("scalar")) letters.erase(0, 6);  // prefix of CloudCompare's fields in PLY
   const auto known = names.find(letters);
   return known == names.end() ? "" : known->second;
 }
@@ -137,10 +137,10 @@ void nameFields(std::vector<Field>& fields) {
     if (field.name.size() == 1) letters.insert(lower(field.name));
     if (knownName(field.name) == field.name) taken.insert(field.name);
   }
-  for (Field& field : fields)  // those that are called so but for capitals
+  for (Field& field : fields)  // names that differ from their key only in capitals
     if (const std::string known = knownName(field.name); known == lower(field.name) && taken.insert(known).second)
       field.name = known;
-  // A letter alone may mean anything, but r, g and b together.
+  // Names of one letter are taken for colours only if r, g and b all occur.
   const bool are_colors = letters.contains("r") && letters.contains("g") && letters.contains("b");
   for (Field& field : fields) {
     const std::string known = knownName(field.name);
@@ -155,7 +155,7 @@ std::vector<std::string> partNames(std::string_view name, std::size_t count) {
   for (std::size_t c = 0; c < count; ++c) {
     const std::string known = knownName(plainName(name) + ":" + std::to_string(c));
     if (known.empty() && c < 3) return {};
-    names.push_back(known.empty() ? "_" : known);  // the fourth value of a point is padding
+    names.push_back(known.empty() ? "_" : known);  // padding, as in x y z _
   }
   return names;
 }

@@ -10,24 +10,23 @@
 
 namespace tufted::io {
 
-/// The text in small letters.
 std::string lower(std::string_view text);
 
-/// Whether a text is one of these.
+/// Whether a text equals one of `others`.
 inline bool isOneOf(std::string_view text, std::initializer_list<std::string_view> others) {
   return std::find(others.begin(), others.end(), text) != others.end();
 }
 
-/// One word without quotes, a unit in brackets and blanks: "gps time [s]" becomes gps_time. A column without a name
-/// gets that of padding, "_".
+/// Makes one word of a name: removes quotes and a unit in brackets, and replaces blanks, so "gps time [s]" becomes
+/// gps_time. An empty name becomes "_", the name of padding.
 std::string plainName(std::string_view name);
 
-/// The names of the values of a field of several, if they have known ones: x y z of xyz, nx ny nz of normals, red green
-/// blue of rgb; otherwise none.
+/// Known names for the `count` values of a field: x y z for xyz, nx ny nz for normals, red green blue for rgb. Empty if
+/// the field is not known or `count` is not 3 or 4.
 std::vector<std::string> partNames(std::string_view name, std::size_t count);
 
-/// Gives the fields the names that fieldKey() knows them by; others keep theirs as one word. Where two have the same
-/// key, such as z and Elevation, the one that is called so keeps it.
+/// Renames the fields that are known to their fieldKey(); others keep their name as one word. If several fields have
+/// one key, such as z and Elevation, the one whose name is the key gets it.
 void nameFields(std::vector<Field>& fields);
 
 }  // namespace tufted::io

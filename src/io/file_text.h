@@ -5,8 +5,8 @@
 
 namespace tufted::io {
 
-/// The bytes of a regular file that is not empty.
-/// @throws IoError if it is missing, not a regular file (a directory, a pipe), empty, or cannot be read
+/// Reads all bytes of a file.
+/// @throws IoError if it is missing, empty, not a regular file (a directory, a pipe), or cannot be read
 std::string readBytes(const std::filesystem::path& path);
 
 }  // namespace tufted::io

@@ -7,8 +7,11 @@
 
 namespace tufted::io {
 
-/// One reader per format: the whole file is in `bytes`, `path` is for errors, `progress` for faces that are
-/// triangulated. All throw IoError naming the path and, where known, the line or byte.
+/// Readers, one per format.
+/// @param path for errors
+/// @param bytes the whole file
+/// @param progress called while faces are triangulated
+/// @throws IoError naming the path and, where known, the line or byte
 Geometry readPcd(const std::filesystem::path& path, std::string_view bytes);
 Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces, const Progress& progress);
 Geometry readXyz(const std::filesystem::path& path, std::string_view bytes);
@@ -19,7 +22,7 @@ Geometry readStl(const std::filesystem::path& path, std::string_view bytes);
 Geometry readNpy(const std::filesystem::path& path, std::string_view bytes);
 Geometry readVtk(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
 
-/// Whether the bytes begin as a file of that format does. Text of numbers is anything else that begins with numbers.
+/// Whether the bytes begin like a file of this format. looksLikeXyz() is asked last, as any text of numbers passes it.
 bool looksLikeVtk(std::string_view bytes);
 bool looksLikePcd(std::string_view bytes);
 bool looksLikeOff(std::string_view bytes);

@@ -11,7 +11,7 @@
 namespace tufted::io {
 namespace {
 
-/// Frames that are read must be orthonormal to this; copies in float32 are.
+/// Frames that are read must be orthonormal to within this; frames rounded to float32 are.
 constexpr double tolerance = 1e-6;
 
 bool isOrthonormal(const Eigen::RowVector3d& x, const Eigen::RowVector3d& normal) {
@@ -46,7 +46,7 @@ Frames readFrames(const std::filesystem::path& path, std::size_t points) {
   if (!fits || (array.shape[0] != n && array.shape[0] != 0))
     refuse(path, "is not an array of " + std::to_string(n) + " x 3 x 3 values, three axes for each row of L");
   const std::vector<double> numbers = numbersOf(array, path);
-  if (numbers.empty()) return {};  // of a mesh; a part of an array without data has no address
+  if (numbers.empty()) return {};  // a mesh has no frames, and an empty vector has no data() to map
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor>> axes(numbers.data(), array.shape[0],
                                                                                          9);
   return {axes.rightCols<3>(), axes.leftCols<3>(), Orientation::arbitrary};

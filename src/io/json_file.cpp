@@ -7,7 +7,7 @@
 
 nlohmann::json tufted::io::readJson(const std::filesystem::path& path) {
   using Json = nlohmann::json;
-  // Levels of a file that is read: ours have four, and deep nesting would end the process.
+  // Most levels of nesting: our own files have four, and deep recursion would crash the process.
   constexpr int most = 32;
   const auto check = [&path](int depth, Json::parse_event_t, const Json&) {
     if (depth > most) refuse(path, "is nested deeper than " + std::to_string(most) + " levels");

@@ -5,7 +5,8 @@
 
 namespace tufted::io {
 
-/// The JSON in a file; discarded where it is none. Nesting is bounded, because copies and texts of values recurse.
+/// Reads a file of JSON. The depth of nesting is bounded, because copying and printing values recurse.
+/// @return the value; is_discarded() if the file is not valid JSON
 /// @throws IoError for a file that cannot be read or is nested deeper than 32 levels
 nlohmann::json readJson(const std::filesystem::path& path);
 

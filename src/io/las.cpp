@@ -8,12 +8,12 @@
 #include "io/las_header.h"
 #include "io/unread.h"
 
-// Reads the points of LAS files: ASPRS, LAS Specification 1.4 R15, Tables 10 to 22. Debian's only library for LAS is
-// PDAL, which is larger than all other dependencies together.
+// Reads the points of LAS files (ASPRS, LAS Specification 1.4 R15, Tables 10 to 22). PDAL, Debian's only library for
+// LAS, is larger than all other dependencies together.
 namespace tufted::io {
 namespace {
 
-/// Where a value lies in a point: some bytes, or some bits of one byte.
+/// The place of a value in a point record: some bytes, or some bits of one byte.
 struct Item {
   const char* name;
   FieldType type;
@@ -22,7 +22,7 @@ struct Item {
   int bits = 0;  ///< 0: the whole value
 };
 
-constexpr Item first_formats[] = {  // 0 to 5
+constexpr Item first_formats[] = {  // point formats 0 to 5
     {"intensity", FieldType::uint16, 12},
     {"return_number", FieldType::uint8, 14, 0, 3},
     {"number_of_returns", FieldType::uint8, 14, 3, 3},
@@ -36,7 +36,7 @@ constexpr Item first_formats[] = {  // 0 to 5
     {"user_data", FieldType::uint8, 17},
     {"point_source_id", FieldType::uint16, 18}};
 
-constexpr Item later_formats[] = {  // 6 to 10
+constexpr Item later_formats[] = {  // point formats 6 to 10
     {"intensity", FieldType::uint16, 12},
     {"return_number", FieldType::uint8, 14, 0, 4},
     {"number_of_returns", FieldType::uint8, 14, 4, 4},
@@ -53,7 +53,7 @@ constexpr Item later_formats[] = {  // 6 to 10
     {"point_source_id", FieldType::uint16, 20},
     {"gps_time", FieldType::float64, 22}};
 
-/// The items of a format in the order of their bytes.
+/// The items of a point format in the order of their bytes.
 std::vector<Item> itemsOf(int format) {
   std::vector<Item> items;
   const auto add = [&items](const char* name, FieldType type, int byte) { items.push_back({name, type, byte}); };
@@ -84,7 +84,7 @@ std::vector<Item> itemsOf(int format) {
   return items;
 }
 
-/// The points of a file: `points` records of equal length.
+/// The point records of a file, `count` of `bytes` bytes each.
 struct Records {
   const char* first;
   std::size_t bytes;

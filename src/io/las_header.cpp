@@ -8,9 +8,9 @@
 #include "io/columns.h"
 #include "io/errors.h"
 
-// ASPRS, LAS Specification 1.4 R15: the offsets below are those of its Table 3 (public header), Table 7 (variable
-// length records) and Table 24 (Extra Bytes descriptor); LAS 1.2 and 1.3 are the same with a shorter header. All
-// numbers are little endian.
+// The offsets below are those of ASPRS, LAS Specification 1.4 R15: Table 3 (public header), Table 7 (variable length
+// records) and Table 24 (Extra Bytes descriptor). Earlier versions have the same header, but shorter. All numbers are
+// little endian.
 namespace tufted::io {
 namespace {
 
@@ -20,7 +20,7 @@ constexpr std::size_t header_of_1_4 = 375;     // bytes, LAS 1.4
 constexpr std::size_t record_header = 54;      // bytes of a variable length record
 constexpr std::size_t extra_descriptor = 192;  // bytes that describe one extra value
 
-/// The name of an extra value as one printable word, which is what headers of PLY and PCD can hold.
+/// The name of an extra value as one printable word, because headers of PLY and PCD hold no others.
 std::string fieldName(std::string_view text, std::size_t number) {
   std::string name(text.substr(0, text.find('\0')));
   while (!name.empty() && name.back() == ' ') name.pop_back();
@@ -90,7 +90,7 @@ class LasHeaderParser {
                      std::to_string(format) + " has " + std::to_string(lasPointBytes(format)));
   }
 
-  /// LAS 1.4 counts in 64 bits; where that is zero, writers left only the old field.
+  /// Reads the number of points: 64 bits in LAS 1.4, or if they are zero the 32 bits of older versions.
   void readCount() {
     std::uint64_t count = at<std::uint32_t>(107);
     std::size_t place = 107;
@@ -105,7 +105,7 @@ class LasHeaderParser {
     header_.points = static_cast<std::int64_t>(count);
   }
 
-  /// Behind the points, LAS 1.3 may have waveforms, and 1.4 extended variable length records as well.
+  /// Finds where the points end: waveforms (LAS 1.3) or extended variable length records (1.4) may follow.
   void findEnd() {
     header_.end = bytes_.size();
     const std::size_t points = header_.body + static_cast<std::size_t>(header_.points) * header_.record_bytes;
@@ -116,7 +116,7 @@ class LasHeaderParser {
     if (header_.minor == 4 && at<std::uint32_t>(243) > 0) addPart(at<std::uint64_t>(235));
   }
 
-  /// The variable length records between header and points; of all kinds Extra Bytes alone matters here.
+  /// Reads the variable length records between header and points, of which only Extra Bytes records are used.
   void readRecords() {
     const auto records = at<std::uint32_t>(100);
     std::size_t record = header_bytes_;
@@ -144,7 +144,7 @@ class LasHeaderParser {
     const int kind = at<std::uint8_t>(place + 2), options = at<std::uint8_t>(place + 3);
     extra.name = fieldName(bytes_.substr(place + 4, 32), header_.extras.size() + 1);
     if (kind == 0) {
-      extra.count = options;  // bytes without a meaning
+      extra.count = options;  // undocumented bytes
     } else if (kind <= 30) {  // 11 to 20 are pairs, 21 to 30 triples
       extra.type = types[(kind - 1) % 10];
       extra.count = 1 + (kind - 1) / 10;
@@ -161,7 +161,7 @@ class LasHeaderParser {
     if (extra.count > 0) header_.extras.push_back(extra);
   }
 
-  /// Adds bytes without a description as a field.
+  /// Adds undescribed bytes of a record as a field.
   void describeTheRest() {
     std::size_t described = lasPointBytes(header_.point_format);
     for (const LasExtra& extra : header_.extras) described += sizeOf(extra.type) * extra.count;

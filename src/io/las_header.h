@@ -11,12 +11,13 @@
 
 namespace tufted::io {
 
-/// Values of a point record beyond those of its format, as an Extra Bytes record describes them (LAS 1.4, 2.6).
+/// A field that point records have in addition to those of their format, described by an Extra Bytes record (LAS 1.4,
+/// Section 2.6).
 struct LasExtra {
   std::string name;
   FieldType type = FieldType::uint8;
   int count = 1;
-  bool scaled = false;  ///< the value is stored * scale + offset, in double
+  bool scaled = false;  ///< whether a value is what is stored times scale plus offset, in double
   std::array<double, 3> scale = {1, 1, 1}, offset = {0, 0, 0};
 };
 
@@ -27,12 +28,12 @@ struct LasHeader {
   std::size_t record_bytes = 0;  ///< bytes per point
   std::int64_t points = 0;
   std::size_t body = 0;  ///< byte at which the points begin
-  std::size_t end = 0;   ///< byte at which records behind the points begin, or where the file ends
+  std::size_t end = 0;   ///< byte at which records after the points begin, or size of the file
   std::array<double, 3> scale = {}, offset = {};
-  std::vector<LasExtra> extras;  ///< in the order of their bytes, all bytes behind the format's own
+  std::vector<LasExtra> extras;  ///< covers all bytes of a record after those of the format, in order
 };
 
-/// Number of bytes of a point of format 0 to 10, without extra bytes.
+/// Bytes of a point record of format 0 to 10, without extra bytes.
 std::size_t lasPointBytes(int point_format);
 
 /// Parses a header and checks that the file is long enough for the points it counts.

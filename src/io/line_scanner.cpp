@@ -9,7 +9,7 @@ namespace tufted::io {
 
 LineScanner::LineScanner(const std::filesystem::path& path, std::string_view text, Syntax syntax)
     : path_(path), text_(text), syntax_(syntax) {
-  if (text_.starts_with("\xEF\xBB\xBF")) offset_ = 3;  // the mark some editors put before UTF-8
+  if (text_.starts_with("\xEF\xBB\xBF")) offset_ = 3;  // byte order mark of UTF-8
 }
 
 bool LineScanner::next() {
@@ -26,7 +26,7 @@ bool LineScanner::next() {
 
 void LineScanner::appendTokens() {
   if (offset_ >= text_.size()) return;
-  // Looked for once, not in each of the lines before it that a lone \r ends.
+  // Kept, so that a text whose lines end in a lone \r is not searched again from each of its lines.
   if (newline_ <= offset_) newline_ = std::min(text_.find('\n', offset_), text_.size());
   std::size_t end = newline_;
   const std::size_t carriage = text_.substr(offset_, end - offset_).find('\r');
@@ -52,7 +52,7 @@ void LineScanner::appendTokens() {
 
 void LineScanner::checkGap(std::string_view gap, bool at_end) {
   if (syntax_.delimiters.empty()) return;
-  char delimiter = '\0';  // blanks alone
+  char delimiter = '\0';  // stays 0 if the gap has only blanks
   for (const char c : gap) {
     if (syntax_.delimiters.find(c) == std::string_view::npos) continue;
     if (delimiter != '\0' || tokens_.empty()) refuse("value " + std::to_string(tokens_.size() + 1) + " is empty");
@@ -89,7 +89,7 @@ void LineScanner::refuse(const std::string& reason) const {
 
 std::vector<std::string_view> firstTokens(std::string_view text, LineScanner::Syntax syntax) {
   const std::filesystem::path nowhere;
-  syntax.delimiters = {};  // empty fields are no reason to stop here
+  syntax.delimiters = {};  // an empty value is not an error here
   LineScanner scanner(nowhere, text, syntax);
   scanner.next();
   return scanner.tokens();

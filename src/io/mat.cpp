@@ -12,18 +12,20 @@
 namespace tufted::io {
 namespace {
 
-/// libmatio 1.5 looks at no result of fwrite, but a failed one leaves its reason in errno, so that is what tells.
+/// A MATLAB 5 file being written. libmatio 1.5 ignores results of fwrite, but a failed one sets errno, which is
+/// checked.
 class MatFile {
  public:
   explicit MatFile(const OutputPath& to) : shown_(to.shown) {
     errno = 0;
-    // A header of our own, because libmatio's has the date: equal matrices are equal files.
+    // libmatio's own header has the date; without it equal matrices give equal files.
     file_.reset(Mat_CreateVer(to.path.c_str(), "MATLAB 5.0 MAT-file, written by tufted; see the variable `conventions`",
                               MAT_FT_MAT5));
     check(file_ != nullptr);
   }
 
-  /// `data` is an array, or a mat_sparse_t. libmatio takes what it only reads as not const.
+  /// Writes a variable.
+  /// @param data an array, or a mat_sparse_t
   void write(const char* name, matio_classes kind, matio_types type, std::size_t rows, std::size_t columns,
              const void* data) {
     std::size_t dims[2] = {rows, columns};
@@ -57,7 +59,7 @@ void checkSize(const OutputPath& to, const char* name, std::uint64_t bytes) {
 void writeMat(const OutputPath& to, const SparseMatrix& L, const VectorXd& M, const Laplacian& laplacian,
               const std::vector<Convention>& conventions) {
   const std::size_t points = M.size();
-  constexpr std::uint64_t framing = 256;  // more than the tags around the values take
+  constexpr std::uint64_t framing = 256;  // upper bound of the bytes of the tags around a variable's values
   checkSize(to, "L",
             L.nonZeros() * (sizeof(double) + sizeof(int)) + (L.cols() + std::uint64_t{1}) * sizeof(int) + framing);
   checkSize(to, "M", points * sizeof(double) + framing);

@@ -8,7 +8,7 @@
 
 namespace tufted::io {
 
-/// Writes laplacian.mat as documented at writeLaplacian, not compressed.
+/// Writes laplacian.mat as documented at writeLaplacian(), without compression.
 /// @param L compressed
 /// @throws IoError, also where a variable is larger than the format allows
 void writeMat(const OutputPath& to, const SparseMatrix& L, const VectorXd& M, const Laplacian& laplacian,

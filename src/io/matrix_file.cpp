@@ -11,7 +11,7 @@
 namespace tufted::io {
 namespace {
 
-/// Collects the columns of a sparse matrix as they are read.
+/// Collects the columns of a sparse matrix, one entry after another.
 class ColumnBuilder {
  public:
   explicit ColumnBuilder(int rows) : place_(rows, -1) {}
@@ -50,8 +50,8 @@ class ColumnBuilder {
   }
 
  private:
-  std::vector<int> place_;  ///< place of the last entry of each row; below begin_ it is of a former column
-  int begin_ = 0;           ///< place at which the column begins
+  std::vector<int> place_;  ///< place of the last entry in each row; if below begin_, in an earlier column
+  int begin_ = 0;           ///< place of the current column's first entry
   std::vector<int> ends_, rows_;
   std::vector<double> values_, sorted_;
 };
@@ -80,7 +80,7 @@ std::vector<int> MatrixFile::readStarts() {
   std::vector<int> starts;
   for (std::int64_t j = 0; j < starts_.size(); ++j) {
     starts.push_back(starts_.nextInteger(0, static_cast<double>(indices_.size())));
-    // A column of more entries than rows would contain some of them several times.
+    // A column with more entries than rows, which must repeat some, is refused.
     const int before = j == 0 ? 0 : starts[j - 1];
     if (starts[j] < before || starts[j] - before > (j == 0 ? 0 : rows_))
       refuse(path_, "has columns that do not fit its entries");

@@ -7,8 +7,8 @@
 
 namespace tufted::io {
 
-/// A square matrix in a .npz file of scipy, by columns or rows. Its size is known at once and must be compared with
-/// other files before its entries are read.
+/// A square sparse matrix in a .npz file of scipy, csc or csr. The constructor reads its size, which callers must
+/// compare with other files before they read the entries.
 class MatrixFile {
  public:
   /// Opens the file.
@@ -17,9 +17,9 @@ class MatrixFile {
 
   int rows() const { return rows_; }
 
-  /// Reads the entries; to be called once. Entries that occur several times, in any order within a column, are summed
-  /// as scipy does.
-  /// @throws IoError
+  /// Reads the entries. To be called once. Entries of a column may be in any order; repeated ones are summed, as in
+  /// scipy.
+  /// @throws IoError naming the file
   SparseMatrix read();
 
  private:

@@ -7,7 +7,7 @@
 namespace tufted::io {
 namespace {
 
-/// Writes matrices as text, counted from 1.
+/// Writes lines of text with rows and columns counted from 1.
 class MatrixText {
  public:
   explicit MatrixText(const OutputPath& to) : file_(to), buffer_(file_) {}

@@ -15,11 +15,11 @@ void writeMtx(const OutputPath& to, const SparseMatrix& matrix, const std::vecto
 /// @throws IoError
 void writeMtx(const OutputPath& to, const VectorXd& values, const std::vector<Convention>& conventions);
 
-/// Writes triplets counted from 1, column by column, without a header, as the paper's program does. A matrix whose last
-/// diagonal entry is not stored gets it as 0, because readers take the size from the largest indices.
+/// Writes lines `row column value`, counted from 1, column by column and without a header, as the paper's program does.
+/// The last diagonal entry is written even if it is 0, because readers take the size from the largest indices.
 /// @throws IoError
 void writeSpmat(const OutputPath& to, const SparseMatrix& matrix);
-/// Writes the diagonal matrix of `values`, zeros included, as triplets counted from 1 without a header.
+/// Writes the diagonal matrix of `values` in the same way, zeros included.
 /// @throws IoError
 void writeSpmat(const OutputPath& to, const VectorXd& values);
 

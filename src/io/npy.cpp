@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view magic = "\x93NUMPY";
 
-/// The text after `key` in the dictionary of a header, from the first character that is not a space.
+/// The text after `key` in a header's dictionary, without leading spaces.
 std::string_view entry(std::string_view dictionary, const std::string& key, const std::filesystem::path& shown) {
   const std::size_t at = dictionary.find("'" + key + "':");
   if (at == std::string_view::npos) refuseByte(shown, npy_dictionary, "the header of the array has no " + quote(key));
@@ -57,7 +57,7 @@ const std::map<std::string, FieldType, std::less<>> types = {
 }  // namespace
 
 std::string npyHeader(std::string_view descr, const std::vector<std::int64_t>& shape) {
-  // Bytes that the format aligns the data to.
+  // The format aligns values to this many bytes.
   constexpr std::size_t alignment = 64;
   constexpr std::size_t before = 10;  // magic, version and length of the dictionary
   std::string lengths;

@@ -11,24 +11,24 @@
 
 namespace tufted::io {
 
-/// The header of a .npy file, version 1.0: C order, little endian, padded so that the values begin at a multiple of
-/// 64 bytes (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
+/// Makes the header of a .npy file, version 1.0, in C order, padded so that the values begin at a multiple of 64 bytes
+/// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
 /// @param descr numpy's name of the type, such as "<f8"
 /// @param shape empty for a single value
 std::string npyHeader(std::string_view descr, const std::vector<std::int64_t>& shape);
 
-/// Where the text of a header begins, for messages; two bytes later from version 2 on.
+/// Byte at which the dictionary of a header begins, for messages; from version 2 on two bytes later.
 constexpr std::size_t npy_dictionary = 10;
 
-/// What the header of any .npy file says.
+/// The header of any .npy file.
 struct NpyLayout {
-  std::string_view descr;           ///< the type as Python writes it, and what follows in the header
+  std::string_view descr;           ///< text of the header from the type, a literal of Python, to the end
   std::vector<std::int64_t> shape;  ///< empty: a single value
   std::size_t bytes = 0;            ///< size of the header; the values begin there
-  bool is_by_columns = false;       ///< values in Fortran's order
+  bool is_by_columns = false;       ///< whether values are in Fortran order
 };
 
-/// The header of an array of one type in C's order.
+/// The header of an array of one type in C order.
 struct NpyHeader {
   std::string descr;                ///< numpy's name of the type
   std::optional<FieldType> type;    ///< type of little-endian floats and integers; nullopt for others
@@ -40,18 +40,19 @@ struct NpyHeader {
 
 constexpr std::size_t npy_beginning = 12;  ///< number of bytes that npyHeaderBytes() needs
 
-/// How many bytes the header has. @throws IoError for a file that is not a .npy file of version 1 to 3
+/// The size of the header in bytes, by the first `npy_beginning` bytes of a file called `shown`.
+/// @throws IoError for a file that is not a .npy file of version 1 to 3
 std::size_t npyHeaderBytes(std::string_view beginning, const std::filesystem::path& shown);
 
-/// Parses a header. `bytes` must outlive the result. @throws IoError for a file that is not a .npy file of version 1 to
-/// 3
+/// Parses a header.
+/// @param bytes at least the header; must outlive the result
+/// @throws IoError for a file that is not a .npy file of version 1 to 3
 NpyLayout parseNpyLayout(std::string_view bytes, const std::filesystem::path& shown);
 
-/// Parses a header and checks that the file has as many bytes as its shape says.
+/// Parses the header of an array in C order, and compares its shape with the size of the file.
 /// @param bytes at least the header
-/// @param all how many bytes the file has
-/// @param shown the path to name in errors
-/// @throws IoError for another number of bytes or another order, or a file that is not a .npy file of version 1 to 3
+/// @param all size of the file in bytes
+/// @throws IoError for another size, Fortran order, or a file that is not a .npy file of version 1 to 3
 NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown);
 
 /// A .npy file in memory.
@@ -62,7 +63,7 @@ struct NpyArray : NpyHeader {
 /// Parses a whole file. Errors are those of parseNpyHeader().
 NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown);
 
-/// The type of an array of numbers. @throws IoError for other arrays
+/// The type of an array of numbers. @throws IoError for an array that does not hold numbers
 FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown);
 
 /// The numbers as doubles, in the order of the file. @throws IoError for an array that does not hold numbers

@@ -17,9 +17,9 @@ namespace {
 
 constexpr const char* remedy = "; in Python: numpy.save(file, array.astype(float))";
 
-/// A literal of Python that consists of strings, integers, tuples and lists: 'a', 3, (...), [...].
+/// A Python literal of strings, integers, tuples and lists: 'a', 3, (...), [...].
 struct Literal {
-  std::string_view text;  ///< of a string or a number
+  std::string_view text;  ///< content of a string, or digits of an integer
   bool is_string = false;
   std::vector<Literal> items;
 };
@@ -47,7 +47,7 @@ class LiteralParser {
   }
 
  private:
-  static constexpr int most_depth = 4;  // a list of members of a name with a title, a type and a shape
+  static constexpr int most_depth = 4;  // one more than a list of members with a title and a shape has
 
   void skipBlanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size())); }
 
@@ -73,7 +73,7 @@ class LiteralParser {
   std::string_view rest_;
 };
 
-/// A real number of numpy: '<f4', '>i2', '|b1'. The name and the offset are left to the caller.
+/// Parses numpy's name of a real type, such as '<f4', '>i2' or '|b1'. The caller sets name and offset.
 std::optional<NpyColumn> realType(std::string_view text) {
   if (text.size() < 3 || std::string_view("<>|=").find(text[0]) == std::string_view::npos) return std::nullopt;
   NpyColumn column = {"", FieldType::float64, text[1], 0, text[0] == '>', 0};
@@ -95,7 +95,7 @@ std::optional<NpyColumn> realType(std::string_view text) {
   return column;
 }
 
-/// IEEE 754's binary16.
+/// Converts a half-precision number (IEEE 754 binary16).
 float fromHalf(std::uint16_t half) {
   const int exponent = half >> 10 & 31, fraction = half & 1023;
   const float magnitude = exponent == 31  ? (fraction == 0 ? INFINITY : NAN)
@@ -151,7 +151,7 @@ class TableParser {
     for (const Literal& member : literal->items) readMember(member);
   }
 
-  /// A member is ('name', '<f4') or ('name', '<f4', (3,)), its name may be ('title', 'name').
+  /// Reads a member: ('name', '<f4') or ('name', '<f4', (3,)), where 'name' may also be ('title', 'name').
   void readMember(const Literal& member) {
     if (member.items.size() < 2) refuse("the header of the array has no type");
     const Literal& named = member.items[0];
@@ -169,7 +169,7 @@ class TableParser {
     const std::string_view type = member.items[1].text;
     std::optional<NpyColumn> column = member.items[1].is_string ? realType(type) : std::nullopt;
     if (!column) {
-      // Padding, and text or bytes, which are no numbers.
+      // Padding, text and bytes are skipped.
       std::uint32_t size = 0;
       const bool is_known = type.size() > 2 && std::string_view("VSU").find(type[1]) != std::string_view::npos;
       if (!is_known || !parseNumber(type.substr(2), size) || size > most_item_bytes)
@@ -189,7 +189,7 @@ class TableParser {
     table_.columns = std::ssize(table_.members);
   }
 
-  /// Strides from the shape: all dimensions but that of the columns count items.
+  /// Sets sizes and strides from the shape. All dimensions except that of the columns count items.
   void setShape() {
     std::vector<std::int64_t> shape = layout_.shape;
     table_.dimensions = shape.size();
@@ -210,7 +210,7 @@ class TableParser {
     table_.height = shape.size() == 3 ? shape.front() : 1;
   }
 
-  static constexpr std::uint64_t most_item_bytes = 1 << 14;  // of a structure: thousands of values are no point's
+  static constexpr std::uint64_t most_item_bytes = 1 << 14;  // bytes of a structure: more than any point has
 
   std::string_view bytes_;
   const std::filesystem::path& shown_;

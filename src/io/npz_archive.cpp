@@ -29,9 +29,9 @@ void NpzArchive::add(const std::string& name, std::string_view descr, const std:
     zip_source_free(source);
     fail();
   }
-  // Stored: numpy's own default. Weights hardly shrink, and deflate would take longer than building the matrix.
+  // No compression, as by default in numpy: weights hardly shrink, and deflate would take longer than the build.
   if (zip_set_file_compression(archive_.get(), index, ZIP_CM_STORE, 0) != 0) fail();
-  // One date for all, 1 January 1980, so that equal arrays are equal files.
+  // The date is always 1 January 1980, so that equal arrays give equal files.
   constexpr zip_uint16_t first_day = (0 << 9) | (1 << 5) | 1;
   if (zip_file_set_dostime(archive_.get(), index, 0, first_day, 0) != 0) fail();
 }

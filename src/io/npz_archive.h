@@ -15,22 +15,23 @@
 
 namespace tufted::io {
 
-/// A .npz file being written: arrays of one name each, stored without compression. The same arrays give the same bytes.
+/// Writes a .npz file of named arrays, without compression. The same arrays give the same bytes.
 class NpzArchive {
  public:
   explicit NpzArchive(const OutputPath& to);
 
+  /// Adds an array.
   /// @param name with the ending .npy
   /// @param descr numpy's name of the type, such as "<f8"
   /// @param shape in C order; empty for a single value
-  /// @param values borrowed until close()
+  /// @param values `bytes` bytes, borrowed until close()
   void add(const std::string& name, std::string_view descr, const std::vector<std::int64_t>& shape, const void* values,
            std::size_t bytes);
-  /// @throws IoError
+  /// Writes the file. @throws IoError
   void close();
 
  private:
-  /// One array: libzip takes a file from a single source, made of a header and values it does not copy.
+  /// One array. libzip reads it from one source made of two fragments, header and values, which it does not copy.
   struct Member {
     std::string header;
     std::array<zip_buffer_fragment_t, 2> fragments;
@@ -43,7 +44,7 @@ class NpzArchive {
 
   std::filesystem::path shown_;
   std::deque<Member> members_;
-  std::unique_ptr<zip_t, Discard> archive_;  // before the members it borrows from
+  std::unique_ptr<zip_t, Discard> archive_;  // declared after members_, from which it borrows
 };
 
 }  // namespace tufted::io

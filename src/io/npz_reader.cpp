@@ -10,9 +10,9 @@
 namespace tufted::io {
 namespace {
 
-/// Numbers that are inflated at once.
+/// Size of a piece: how many numbers are inflated at once.
 constexpr std::int64_t piece_numbers = 8192;
-/// Bytes of the header of an array; numpy writes one or two hundred.
+/// Most bytes of an array's header; numpy writes one or two hundred.
 constexpr std::size_t most_header_bytes = 1 << 16;
 
 int integerOf(double number, double least, double most, std::int64_t place, const std::filesystem::path& shown) {
@@ -57,7 +57,7 @@ void NpzArray::readPiece() {
     piece_[i] = valueOf(type, reinterpret_cast<const std::byte*>(bytes.data()) + i * sizeOf(type));
   place_ = 0;
   taken_ += count;
-  char beyond;  // at the end the checksum is compared
+  char beyond;  // reading beyond the last byte makes libzip compare the checksum
   if (taken_ == size() && zip_fread(file_.get(), &beyond, 1) != 0) refuseDamaged();
 }
 
@@ -79,7 +79,7 @@ NpzArray NpzReader::open(const std::string& name) const {
   zip_stat_t status;
   if (zip_stat(archive_.get(), (name + ".npy").c_str(), 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0)
     refuse(path_, "has no array " + quote(name));
-  // Deflate shrinks 1032 times at best.
+  // Deflate shrinks by a factor of at most 1032.
   if (status.size / 2048 > bytes_.size()) refuse(path_, "the array " + quote(name) + " claims to be too large");
   NpzArray array(path_, name);
   array.file_.reset(zip_fopen_index(archive_.get(), status.index, 0));
@@ -99,7 +99,7 @@ std::vector<double> NpzReader::numbers(const std::string& name, std::int64_t cou
 }
 
 std::string NpzReader::text(const std::string& name) const {
-  // Bytes of a word in an archive.
+  // Most bytes of a text.
   constexpr std::uint64_t most = 64;
   NpzArray array = open(name);
   if (array.value_bytes_ > most) refuse(path_, "the array " + quote(name) + " is no word");

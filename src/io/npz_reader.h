@@ -11,17 +11,17 @@
 
 namespace tufted::io {
 
-/// An array in a .npz file. Its header is read at once, its numbers in pieces: one deflated byte can become a thousand
-/// bytes, so callers must check the memory that they fill before and while numbers are read.
+/// An array in a .npz file. Its header is read first, its numbers in pieces: one deflated byte can become a thousand
+/// bytes, so callers must bound the memory that they fill with them.
 class NpzArray {
  public:
   const NpyHeader& header() const { return header_; }
   std::int64_t size() const { return header_.size(); }
 
-  /// The next number, in C order; to be called size() times. @throws IoError if damaged or not an array of numbers
+  /// Reads the next of size() numbers, in C order. @throws IoError for a damaged array, or one without numbers
   double next();
-  /// The next number, which must be an integer in [least, most].
-  /// @throws IoError naming the value that is not one, or if damaged or not an array of numbers
+  /// Reads the next number, which must be an integer in [least, most].
+  /// @throws IoError naming the value that is not, and as next()
   int nextInteger(double least, double most);
 
  private:
@@ -41,10 +41,10 @@ class NpzArray {
   std::string name_;
   std::unique_ptr<zip_file_t, Close> file_;
   NpyHeader header_;
-  std::uint64_t value_bytes_ = 0;  ///< number of bytes behind the header
+  std::uint64_t value_bytes_ = 0;  ///< number of bytes after the header
   std::vector<double> piece_;
-  std::size_t place_ = 0;   ///< place of the next number in the piece
-  std::int64_t taken_ = 0;  ///< numbers in this piece and those before
+  std::size_t place_ = 0;   ///< index of the next number in `piece_`
+  std::int64_t taken_ = 0;  ///< numbers in `piece_` and all pieces before
 };
 
 /// The arrays of a .npz file.
@@ -54,11 +54,11 @@ class NpzReader {
   /// @throws IoError for a file that is not an archive
   explicit NpzReader(const std::filesystem::path& path);
 
-  /// The array `name`, whose numbers can be read while this lives. @throws IoError if missing or not an array
+  /// Opens the array `name`, which can be read while this reader exists. @throws IoError if missing or not an array
   NpzArray open(const std::string& name) const;
-  /// The numbers of a small array. @throws IoError also if there are not `count` numbers
+  /// Reads a small array of `count` numbers. @throws IoError also for another count
   std::vector<double> numbers(const std::string& name, std::int64_t count) const;
-  /// The text in an array, of a few letters at most. @throws IoError also if it is longer
+  /// Reads the text in an array, of at most 64 bytes. @throws IoError also if it is longer
   std::string text(const std::string& name) const;
 
  private:
@@ -70,7 +70,7 @@ class NpzReader {
   std::unique_ptr<zip_t, Discard> archive_;
 };
 
-/// The numbers as integers in [least, most]. @throws IoError naming the first that is not one
+/// Converts numbers to integers in [least, most]. @throws IoError naming the first that is not one
 std::vector<int> integersOf(const std::vector<double>& numbers, double least, double most,
                             const std::filesystem::path& shown);
 

@@ -9,7 +9,7 @@
 namespace tufted::io {
 namespace {
 
-/// Microsoft's printf before 2015 wrote 1.#INF, -1.#IND, 1.#QNAN and 1.#SNAN, followed by rounding digits.
+/// Parses what Microsoft's printf wrote before 2015: 1.#INF, -1.#IND, 1.#QNAN and 1.#SNAN, and digits after them.
 template <class T>
 bool parseMicrosoft(std::string_view token, T& value) {
   const bool negative = token.starts_with('-');
@@ -23,7 +23,7 @@ bool parseMicrosoft(std::string_view token, T& value) {
   return true;
 }
 
-/// from_chars leaves the value alone when it is out of range: below the least, or above the greatest number.
+/// The value of a number that from_chars() finds out of range, and does not return: 0 or infinite, with its sign.
 template <class T>
 T outOfRange(std::string_view token) {
   const bool negative = token.starts_with('-');
@@ -52,7 +52,7 @@ bool parseInteger(std::string_view token, T& value) {
   if (error == std::errc() && end == token.data() + token.size()) return true;
   double decimal = 0;
   if (!parseFloat(token, decimal) || decimal != std::trunc(decimal)) return false;
-  // The bounds as powers of two are exact in double, the greatest 64-bit integer is not.
+  // Compares with a power of two, which is exact in double; the greatest 64-bit integer is not.
   const double above = std::ldexp(1.0, std::numeric_limits<T>::digits);
   const double least = std::is_signed_v<T> ? -above : 0.0;
   if (!(decimal >= least && decimal < above)) return false;

@@ -16,15 +16,15 @@ namespace {
 
 constexpr LineScanner::Syntax syntax = {.comment = '#', .continued = true};
 
-/// Words that begin a line of which nothing is needed here (Wavefront's Appendix B1, and those of older versions).
+/// Keywords of lines that are skipped (Wavefront's Appendix B1, and keywords of older versions).
 constexpr std::array others = {
     "vt",     "vp",       "deg",      "bmat", "step",   "cstype", "p",          "l",         "curv",  "curv2", "surf",
     "parm",   "trim",     "hole",     "scrv", "sp",     "end",    "con",        "g",         "s",     "mg",    "o",
     "bevel",  "c_interp", "d_interp", "lod",  "usemtl", "mtllib", "shadow_obj", "trace_obj", "ctech", "stech", "usemap",
     "maplib", "call",     "csh",      "bsp",  "bzp",    "cdc",    "cdp",        "res"};
 
-// CGAL 5.5 reads OBJ too, but loses the faces of files that separate corners by tabs, cuts a face short at a token it
-// cannot read, and refuses files with lines (`l`) or continued lines.
+// Not by CGAL 5.5, which loses the faces of files that separate corners by tabs, truncates a face at a token that it
+// cannot read, and refuses files with polylines (`l`) or continued lines.
 class ObjReader {
  public:
   ObjReader(const std::filesystem::path& path, std::string_view text, const Progress& progress)
@@ -37,7 +37,7 @@ class ObjReader {
         readVertex();
       else if (keyword == "vn")
         readTriple(normals_);
-      else if (keyword == "f" || keyword == "fo")  // the latter until version 3
+      else if (keyword == "f" || keyword == "fo")  // `fo` until version 3
         readFace();
       else if (std::find(others.begin(), others.end(), keyword) == others.end())
         addUnknown();
@@ -51,7 +51,7 @@ class ObjReader {
       geometry.normals = Eigen::Map<const Points>(normals_.data(), geometry.width, 3);
     if (!colors_.moveTo(geometry.fields, false))
       note(colors_.given(), "vertices have a colour and others none, so none is kept", geometry);
-    if (geometry.fields.size() == 4 && fourth_is_one_ && !last_is_one_) {  // v x y z w r g b, not r g b a
+    if (geometry.fields.size() == 4 && fourth_is_one_ && !last_is_one_) {  // x y z w r g b
       for (std::size_t c = 3; c > 0; --c) geometry.fields[c].name = geometry.fields[c - 1].name;
       geometry.fields.erase(geometry.fields.begin());
     }
@@ -72,7 +72,7 @@ class ObjReader {
     for (std::size_t t = 1; t <= 3; ++t) values.push_back(scanner_.number(t));
   }
 
-  /// `v x y z`, with a weight, or with a colour as many programs write it, or with both.
+  /// Reads `v x y z`, which a weight, a colour or both may follow; many programs write colours.
   void readVertex() {
     readTriple(coordinates_);
     const std::size_t tokens = scanner_.tokens().size();
@@ -99,7 +99,8 @@ class ObjReader {
     if (count > 0) geometry.notes.push_back(path_.string() + ": " + std::to_string(count) + " " + what);
   }
 
-  /// A corner is `v`, `v/vt`, `v//vn` or `v/vt/vn`. Numbers count from 1, negative ones back from the last vertex.
+  /// Reads corners `v`, `v/vt`, `v//vn` or `v/vt/vn`. Numbers count from 1, negative ones backwards from the last
+  /// vertex.
   void readFace() {
     std::vector<int>& polygon = soup_.polygons.emplace_back();
     soup_.places.push_back(scanner_.line());
@@ -113,7 +114,7 @@ class ObjReader {
       const std::string_view corner = scanner_.tokens()[t];
       const std::string_view number_text = corner.substr(0, corner.find('/'));
       const std::size_t last = corner.rfind('/');
-      // A normal belongs to the vertex only if a corner names both by the same number.
+      // Normals are kept only if every corner has the same number for its normal as for its vertex.
       if (last != corner.find('/') && corner.substr(last + 1) != number_text) normals_are_of_vertices_ = false;
     }
   }
@@ -124,7 +125,7 @@ class ObjReader {
   std::vector<double> coordinates_, normals_;
   VertexColors colors_;
   bool normals_are_of_vertices_ = true;
-  bool fourth_is_one_ = true, last_is_one_ = true;  // of vertices with four values behind x y z
+  bool fourth_is_one_ = true, last_is_one_ = true;  // for vertices with four values after x y z
   std::int64_t weights_ = 0, unknown_ = 0, first_unknown_ = 0;
   std::string_view unknown_word_;
   PolygonSoup soup_;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr LineScanner::Syntax syntax = {.comment = '#', .comment_anywhere = true};
 
-/// The first word of a file: the keyword, and the number of vertices where no blank is between, as in ModelNet40.
+/// The first word of a file: the keyword and, if no blank separates them as in ModelNet40, the number of vertices.
 struct FirstWord {
   OffLayout layout;
   std::string_view count;
@@ -25,7 +25,7 @@ struct FirstWord {
 
 std::optional<FirstWord> parseFirstWord(std::string_view word) {
   FirstWord first;
-  const bool is_small = lower(word) == word;  // nOFF alone has points of another dimension
+  const bool is_small = lower(word) == word;  // but not nOFF, points of n dimensions
   const auto take = [&](std::string_view prefix) {
     const bool found = word.starts_with(is_small ? lower(prefix) : std::string(prefix));
     if (found) word.remove_prefix(prefix.size());
@@ -40,8 +40,8 @@ std::optional<FirstWord> parseFirstWord(std::string_view word) {
   return first;
 }
 
-/// Reads the ascii form, one vertex or face per line. CGAL 5.5 reads beyond its buffer where a COFF vertex has no
-/// colour.
+/// Reads the ascii form, one vertex or face per line. Not by CGAL 5.5, which reads beyond its buffer if a COFF vertex
+/// has no colour.
 class AsciiOff {
  public:
   AsciiOff(const std::filesystem::path& path, std::string_view text, LineScanner& scanner, const FirstWord& word,
@@ -68,7 +68,7 @@ class AsciiOff {
   }
 
  private:
-  /// Reads the counts, which stand in the keyword's word, behind it or in the next line.
+  /// Reads the counts, which begin in the keyword's word, after it or in the next line.
   void readCounts() {
     std::size_t faces = word_.count.empty() ? 2 : 1;
     if (scanner_.tokens().size() == 1 && word_.count.empty()) {
@@ -81,7 +81,7 @@ class AsciiOff {
     constexpr std::int64_t most = std::numeric_limits<int>::max();
     if (vertices_ < 0 || faces_ < 0 || vertices_ > most || faces_ > most)
       scanner_.refuse("the numbers of vertices and faces are not in [0, 2^31)");
-    // The shortest vertex is "0 0 0\n", the shortest face "0\n".
+    // A vertex takes at least "0 0 0\n", a face at least "0\n".
     if (static_cast<std::uint64_t>(vertices_ * 6 + faces_ * 2) > text_.size())
       scanner_.refuse("too short for the " + std::to_string(vertices_) + " vertices and " + std::to_string(faces_) +
                       " faces of its header");
@@ -94,13 +94,13 @@ class AsciiOff {
       scanner_.refuse(std::to_string(layout_.behindNormal()) + " values expected for a vertex");
     const double w = layout_.homogeneous ? scanner_.number(3) : 1;
     for (int c = 0; c < 3; ++c) geometry.points(v, c) = scanner_.number(c) / w;
-    // Colours also stand behind the coordinates of a plain OFF.
+    // Files without C in their keyword may have colours too.
     if (!layout_.texture) colors_.add(scanner_, layout_.behindNormal());
     if (!layout_.normals) return;
     for (int c = 0; c < 3; ++c) geometry.normals(v, c) = scanner_.number(layout_.normal() + c);
   }
 
-  /// The number of corners, the corners, perhaps a colour.
+  /// Reads the number of corners and the corners; a colour after them is ignored.
   void readFace(PolygonSoup& soup) {
     if (!scanner_.next())
       scanner_.refuse("ends after " + std::to_string(soup.polygons.size()) + " of " + std::to_string(faces_) +

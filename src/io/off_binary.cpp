@@ -12,9 +12,9 @@
 #include "io/unread.h"
 #include "tufted/errors.h"
 
-// Decodes the binary form of OFF (Geomview's manual, OFF, "binary format"). CGAL 5.5, which reads this form too, turns
-// counts into floats and those into integers beyond their range. pmp-library writes it as its machine has numbers, and
-// its faces have no colours and not their number.
+// Decodes the binary form of OFF (Geomview's manual, OFF, "binary format"). Not by CGAL 5.5, which converts counts
+// through floats to integers that they do not fit into. pmp-library writes it in the byte order of its machine, and
+// faces without colours.
 namespace tufted::io {
 namespace {
 
@@ -48,8 +48,8 @@ class BinaryOff {
   }
 
  private:
-  /// Takes the first dialect whose faces end where the file ends, or else the first in which they are whole; the
-  /// standard one if there is none, to say what is wrong.
+  /// Chooses the first dialect in which the faces end where the file ends, otherwise the first in which all faces are
+  /// valid, otherwise the standard one, whose errors are then reported.
   void chooseDialect() {
     constexpr Dialect standard = {false, true};
     std::optional<Dialect> whole;
@@ -57,7 +57,7 @@ class BinaryOff {
       dialect_ = dialect;
       const std::optional<std::size_t> least = leastCorners();
       if (!least) continue;
-      const bool are_polygons = *least >= 3;  // zeros look like faces without corners
+      const bool are_polygons = *least >= 3;  // in a wrong dialect zeros look like faces without corners
       const bool is_standard = !dialect.is_little_endian && dialect.has_face_colors;
       if (offset_ == bytes_.size() && (are_polygons || is_standard)) return;
       if (!whole && are_polygons) whole = dialect;
@@ -65,8 +65,7 @@ class BinaryOff {
     dialect_ = whole.value_or(standard);
   }
 
-  /// The least number of corners of a face; none where a face is not within the file or names a vertex that is not
-  /// there.
+  /// The least number of corners of a face; nullopt if a face exceeds the file or has a vertex out of range.
   std::optional<std::size_t> leastCorners() {
     std::size_t least = std::numeric_limits<std::size_t>::max();
     try {
@@ -89,14 +88,14 @@ class BinaryOff {
     return 4 * (layout_.behindNormal() + (layout_.colors ? 4 : 0) + (layout_.texture ? 2 : 0));
   }
 
-  /// Reads the counts, and checks that the rest of the file may hold them.
+  /// Reads the counts, and checks that the rest of the file is long enough for them.
   void begin() {
     offset_ = body_;
     vertices_ = integer();
     faces_ = integer();
-    integer();                              // number of edges, which is not needed
-    constexpr std::int64_t least_face = 4;  // the number of corners
-    // Both counts are below 2^31.
+    integer();                              // number of edges, not used
+    constexpr std::int64_t least_face = 4;  // bytes of a face without corners
+    // No overflow: both counts are below 2^31.
     if (vertices_ < 0 || faces_ < 0 ||
         static_cast<std::uint64_t>(vertices_) * vertexBytes() + static_cast<std::uint64_t>(faces_ * least_face) >
             bytes_.size() - offset_)
@@ -135,7 +134,7 @@ class BinaryOff {
     }
   }
 
-  /// The number of corners, the corners, the number of colour values, the colour.
+  /// Reads the number of corners and the corners, and skips the number of colour values and the colour.
   void readFace(PolygonSoup& soup) {
     const std::size_t begin = offset_;
     std::vector<int> polygon(count(begin, "corners"));
@@ -148,7 +147,7 @@ class BinaryOff {
     if (dialect_.has_face_colors) offset_ += 4 * count(offset_, "colour values");
   }
 
-  /// A number of values that the rest of the file can hold.
+  /// Reads a number of values of the face at byte `face`, and checks that the rest of the file can hold them.
   std::size_t count(std::size_t face, const char* what) {
     const std::int32_t value = integer();
     if (value < 0 || static_cast<std::size_t>(value) > (bytes_.size() - offset_) / 4)

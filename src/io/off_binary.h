@@ -9,10 +9,10 @@
 
 namespace tufted::io {
 
-/// Reads the binary form of OFF, 32-bit integers and floats: big endian by the standard, or little endian if that is
-/// what fits the size of the file, with or without the colours of faces.
+/// Reads the binary form of OFF, made of 32-bit integers and floats. The standard's is big endian with colours of
+/// faces; little endian or missing colours are recognised by the size of the file.
 /// @param bytes the whole file
-/// @param body where the binary counts begin
+/// @param body byte at which the binary counts begin
 /// @throws IoError naming the path and byte
 Geometry readBinaryOff(const std::filesystem::path& path, std::string_view bytes, std::size_t body,
                        const OffLayout& layout, const Progress& progress);

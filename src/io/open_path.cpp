@@ -20,7 +20,7 @@ OpenPath::~OpenPath() {
 }
 
 void OpenPath::sync() const {
-  // Some file systems cannot do it for a directory, and say EINVAL.
+  // Some file systems cannot flush a directory, and return EINVAL.
   if (::fsync(file_) != 0 && errno != EINVAL) refuseErrno(shown_, "write", errno);
 }
 

@@ -6,9 +6,9 @@
 namespace tufted::io {
 namespace {
 
-/// Bytes that are written at once.
+/// Bytes that are collected before they are written.
 constexpr std::size_t capacity = 1 << 20;
-/// Characters of a number in 17 digits, with room to spare.
+/// Upper bound of the characters of a number with 17 digits.
 constexpr std::size_t longest_number = 32;
 
 }  // namespace

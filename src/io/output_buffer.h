@@ -9,7 +9,7 @@
 
 namespace tufted::io {
 
-/// Gathers small pieces before they go to a file.
+/// Collects small pieces of output before they are written to a file.
 class OutputBuffer {
  public:
   explicit OutputBuffer(OutputFile& file);
@@ -17,9 +17,9 @@ class OutputBuffer {
   void append(const void* bytes, std::size_t size);
   void append(std::string_view text) { append(text.data(), text.size()); }
   void appendInteger(std::int64_t value);
-  /// Adds a number with 17 significant digits, enough to read the same double again, without trailing zeros.
+  /// Appends a number with 17 significant digits, so that reading gives the same double, without trailing zeros.
   void appendNumber(double value);
-  /// Passes everything on to the file.
+  /// Writes what was collected to the file.
   void flush();
 
  private:

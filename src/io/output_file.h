@@ -7,13 +7,13 @@
 
 namespace tufted::io {
 
-/// Where a file goes.
+/// The path of a file being written.
 struct OutputPath {
-  std::filesystem::path path;   ///< where the bytes go
-  std::filesystem::path shown;  ///< the path to name in errors, that of the finished file
+  std::filesystem::path path;   ///< path under which it is written
+  std::filesystem::path shown;  ///< path of the finished file, to name in errors
 };
 
-/// A new file being written; there must be no file or link of its path. Every error of the system (no space, no
+/// Creates and writes a file; an existing file or link of the path is an error. Every error of the system (no space, no
 /// permission) throws IoError naming the path.
 class OutputFile {
  public:
@@ -21,7 +21,7 @@ class OutputFile {
 
   void write(const void* bytes, std::size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  /// Writes what is still buffered. A file that is not closed may be incomplete.
+  /// Writes what is still buffered. Without this call the file may be incomplete.
   void close();
 
  private:

@@ -7,8 +7,8 @@
 
 namespace tufted::io {
 
-/// L and M as they are written to files: with the sign and the dummy values that the options ask for, and compressed.
-/// Copies only what is changed; the rest is borrowed.
+/// L and M as they are written to files: compressed, with the sign and the dummy values of the options. Only what is
+/// changed is copied; the rest is borrowed.
 class OutputMatrices {
  public:
   OutputMatrices(const Laplacian& laplacian, const WriteOptions& options);

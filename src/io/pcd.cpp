@@ -11,9 +11,9 @@
 namespace tufted::io {
 namespace {
 
-/// One point per line. PCL reads `a b c` as numbers and takes short lines, so the text is scanned here.
+/// Reads one point per line. Not by PCL, which accepts `a b c` as numbers, and lines that are too short.
 void readAscii(const std::filesystem::path& path, std::string_view text, LineScanner& scanner, PcdHeader& header) {
-  // Two bytes, a digit and a separator, are the least a value takes.
+  // A value takes at least two bytes, a digit and a separator, but for the last.
   const std::size_t rest = text.size() - std::min(header.body, text.size());
   if (static_cast<double>(header.points) * static_cast<double>(header.row_values) * 2 > static_cast<double>(rest) + 1)
     refuseByte(path, text.size(), "too short for the " + std::to_string(header.points) + " points of its header");

@@ -6,8 +6,8 @@
 
 #include "io/errors.h"
 
-// liblzf inflates; the rest is a copy. PCL has a reader, which takes a file name, so that standard input would be out
-// of its reach, prints to a console that all threads share, and brings the libraries of VTK.
+// Not by PCL's reader, which cannot read standard input because it takes a file name, prints to a console that all
+// threads share, and needs the libraries of VTK.
 namespace tufted::io {
 
 std::size_t readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
@@ -28,8 +28,8 @@ std::size_t readPcdBinary(const std::filesystem::path& path, std::string_view by
   return static_cast<std::size_t>(value - bytes.data());
 }
 
-/// Reads the compressed form: two sizes, compressed and not, then the compressed columns, one field after another
-/// without padding.
+/// The compressed form has the compressed and the uncompressed size, then the fields one after another, without
+/// padding, compressed by LZF.
 std::size_t readPcdCompressed(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
   const std::size_t rest = bytes.size() - std::min(header.body, bytes.size());
   std::uint32_t sizes[2];
@@ -41,7 +41,7 @@ std::size_t readPcdCompressed(const std::filesystem::path& path, std::string_vie
   if (sizes[0] > rest - sizeof(sizes))
     refuseByte(path, bytes.size(),
                "ends there; the compressed data need " + std::to_string(header.body + sizeof(sizes) + sizes[0]));
-  std::uint64_t row = 0;  // bytes of a point without padding
+  std::uint64_t row = 0;  // bytes per point without padding
   for (const Field& field : header.columns.fields)
     if (!isPadding(field)) row += sizeOf(field.type) * field.count;
   const auto points = static_cast<std::uint64_t>(header.points);
@@ -49,7 +49,7 @@ std::size_t readPcdCompressed(const std::filesystem::path& path, std::string_vie
     refuseByte(path, header.body + 4,
                "the compressed data hold " + std::to_string(sizes[1]) + " bytes, not those of " +
                    std::to_string(points) + " points of " + std::to_string(row) + " bytes");
-  // LZF turns three bytes into 264 at best.
+  // LZF shrinks at most 264 bytes into three.
   if (static_cast<double>(sizes[1]) > 88.0 * sizes[0] + 264)
     refuseByte(path, header.body, "the compressed data are too short for what they are said to hold");
 

@@ -8,10 +8,11 @@
 
 namespace tufted::io {
 
-/// Fill the columns of `header` from the body of a binary or binary_compressed file, after checking that the file is as
-/// long as the header says.
+/// Checks that a binary file is as long as its header says, and reads its values into the columns of `header`.
+/// readPcdCompressed() does so for binary_compressed files.
 /// @param bytes the whole file
-/// @returns where the last point ends
+/// @return byte at which the last point ends
+/// @throws IoError naming the path and byte
 std::size_t readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header);
 std::size_t readPcdCompressed(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header);
 

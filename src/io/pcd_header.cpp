@@ -37,7 +37,7 @@ class PcdHeaderParser {
   }
 
  private:
-  /// Takes a line. True at DATA, which ends the header.
+  /// Parses a line. Returns true at DATA, which ends the header.
   bool keyword() {
     const auto& tokens = scanner_.tokens();
     const std::string word = lower(tokens[0]);
@@ -111,7 +111,7 @@ class PcdHeaderParser {
 
   PcdHeader finish() {
     if (names_.empty()) scanner_.refuse("the header has no FIELDS line");
-    // SIZE, TYPE and COUNT may be missing in old files: floats, one per field.
+    // In old files SIZE, TYPE and COUNT may be missing, and each field is a float.
     if (sizes_.empty()) sizes_.assign(names_.size(), 4);
     if (kinds_.empty()) kinds_.assign(names_.size(), 'F');
     if (counts_.empty()) counts_.assign(names_.size(), 1);

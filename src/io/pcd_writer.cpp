@@ -9,8 +9,8 @@
 #include "io/output_buffer.h"
 #include "io/point_table.h"
 
-// Not PCL's PCDWriter: it takes the sensor's pose as float and prints six digits of it, which puts the sensor of a
-// georeferenced scan metres away, and it wants a copy of all values.
+// Not by PCL's PCDWriter, which takes the sensor's pose as float and prints six digits, so that the sensor of a
+// georeferenced scan is metres off, and which needs a copy of all values.
 namespace tufted::io {
 namespace {
 
@@ -21,7 +21,7 @@ const Field* channel(const Geometry& geometry, const std::string& name) {
   return found == geometry.fields.end() ? nullptr : &*found;
 }
 
-/// The channels of a colour in the order of PCL's packed ones, 0xAARRGGBB from the lowest byte. Not there: null.
+/// The channels of a colour in the order in which PCL packs them: 0xAARRGGBB from the lowest byte. Null if missing.
 struct Color {
   explicit Color(const Geometry& geometry)
       : channels{channel(geometry, "blue"), channel(geometry, "green"), channel(geometry, "red"),

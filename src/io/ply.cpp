@@ -11,19 +11,19 @@
 #include "io/ply_header.h"
 #include "io/polygon_soup.h"
 
-// PLY is decoded here, although PCL and CGAL read it too. Of 24 pairs of list types (4 of the length, 6 of the corners)
-// PCL 1.13 returns empty faces for 10 without a word, and it packs colours into a float. CGAL 5.5 refuses 16, crashes
-// on integer coordinates and drops all further properties.
+// Not by PCL or CGAL. Of 24 pairs of list types (4 of the length, 6 of the corners) PCL 1.13 silently returns empty
+// faces for 10, and it packs colours into a float. CGAL 5.5 refuses 16, crashes on integer coordinates and drops all
+// other properties.
 namespace tufted::io {
 namespace {
 
-/// One value per point and property; lists have no place in a Field and are passed over.
+/// Reads one value per vertex and property. Lists are skipped, because a Field cannot hold them.
 Columns readVertices(const std::filesystem::path& path, std::int64_t header_lines, const PlyElement& element,
                      PlyBody& body) {
   Columns columns;
   for (const PlyProperty& property : element.properties)
     if (!property.is_list) columns.fields.push_back({property.name, property.type, 1, {}});
-  nameColumns(path, header_lines, columns.fields);  // points without values would fit into any file
+  nameColumns(path, header_lines, columns.fields);  // before allocating, as a point may have no values
   allocate(columns, element.count);
   for (std::int64_t i = 0; i < element.count; ++i) {
     body.beginItem(element);
@@ -72,8 +72,8 @@ void readFaces(const PlyElement& element, bool strips, PlyBody& body, PolygonSou
   }
 }
 
-/// The pose of the sensor from the element that PCL's writer puts behind the vertices: the origin and the rows of the
-/// rotation, of floats. What is no rotation is left out.
+/// Reads the pose of the sensor from the element `camera` of PCL's writer: floats with the origin and the rows of the
+/// rotation. A matrix that is no rotation is ignored.
 void readCamera(const PlyElement& element, PlyBody& body, std::array<double, 7>& viewpoint) {
   constexpr std::array names = {"view_px", "view_py", "view_pz", "x_axisx", "x_axisy", "x_axisz",
                                 "y_axisx", "y_axisy", "y_axisz", "z_axisx", "z_axisy", "z_axisz"};

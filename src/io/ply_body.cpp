@@ -13,7 +13,7 @@
 namespace tufted::io {
 namespace {
 
-/// One item per line.
+/// Values as text, one item per line.
 class AsciiPlyBody : public PlyBody {
  public:
   AsciiPlyBody(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)

@@ -10,15 +10,15 @@
 
 namespace tufted::io {
 
-/// The values behind a PLY header, one after another. Errors are IoError naming the line or byte.
+/// The values after a PLY header, read one after another. All functions throw IoError naming the line or byte.
 class PlyBody {
  public:
   virtual ~PlyBody() = default;
 
-  /// Around the values of each item of an element: one line in ascii.
+  /// Called before and after the values of each item of an element, which is a line in ascii.
   virtual void beginItem(const PlyElement& element) = 0;
   virtual void endItem() = 0;
-  /// Notes what lies behind the last element. @throws IoError if that is all there is
+  /// Notes bytes after the last element, see noteUnread().
   virtual void end(Geometry& geometry) = 0;
   /// Stores the next value at `bytes` in native byte order.
   virtual void value(FieldType type, std::byte* bytes) = 0;
@@ -28,16 +28,16 @@ class PlyBody {
   [[noreturn]] virtual void refuse(const std::string& reason) const = 0;
 
   std::int64_t integer(FieldType type);
-  /// The length of the list that begins here, and is not longer than the rest of the file.
+  /// Reads the length of the list that begins here, and checks it against the rest of the file.
   std::int64_t listLength(const PlyProperty& property);
-  /// Passes over the next property.
+  /// Skips the next property.
   void skip(const PlyProperty& property);
 
  protected:
-  virtual std::int64_t mostValues(FieldType type) const = 0;  ///< that the rest of the item or file can hold
+  virtual std::int64_t mostValues(FieldType type) const = 0;  ///< how many the rest of the item or file can hold
 };
 
-/// `path` and `bytes` (the whole file) are borrowed.
+/// Makes the reader for the header's format. `path` and `bytes`, the whole file, are borrowed.
 std::unique_ptr<PlyBody> makePlyBody(const std::filesystem::path& path, std::string_view bytes,
                                      const PlyHeader& header);
 

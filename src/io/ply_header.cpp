@@ -42,7 +42,7 @@ class PlyHeaderParser {
   }
 
  private:
-  /// Takes a line. True at end_header.
+  /// Parses a line. Returns true at end_header.
   bool keyword() {
     const auto& tokens = scanner_.tokens();
     const std::string word = lower(tokens[0]);
@@ -114,9 +114,9 @@ class PlyHeaderParser {
     return std::move(header_);
   }
 
-  /// The least the elements can take: lists without values; in ascii a digit and a separator per number.
+  /// Checks that the file is long enough for its elements, with empty lists and, in ascii, two bytes per number.
   void checkSize() const {
-    std::uint64_t least = 0;  // counts < 2^31 times a header line's properties: far below 2^64
+    std::uint64_t least = 0;  // cannot overflow: counts are below 2^31
     for (const PlyElement& element : header_.elements) {
       std::uint64_t item = 0;
       for (const PlyProperty& property : element.properties)
@@ -125,7 +125,7 @@ class PlyHeaderParser {
                     : sizeOf(property.is_list ? property.count_type : property.type);
       least += item * static_cast<std::uint64_t>(element.count);
     }
-    if (header_.format == PlyHeader::Format::ascii && least > 0) --least;  // no end of line at the end of the file
+    if (header_.format == PlyHeader::Format::ascii && least > 0) --least;  // the last line may lack its end
     const std::size_t rest = bytes_.size() - std::min(header_.body, bytes_.size());
     if (least > rest)
       refuseByte(path_, bytes_.size(),

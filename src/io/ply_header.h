@@ -13,9 +13,9 @@ namespace tufted::io {
 
 struct PlyProperty {
   std::string name;
-  FieldType type = FieldType::float32;  ///< of the value, or of the values of a list
+  FieldType type = FieldType::float32;  ///< type of the value, or of the values of a list
   bool is_list = false;
-  FieldType count_type = FieldType::uint8;  ///< of the number in front of a list's values
+  FieldType count_type = FieldType::uint8;  ///< type of the number before a list's values
 };
 
 struct PlyElement {
@@ -31,9 +31,9 @@ struct PlyHeader {
   Format format = Format::ascii;
   std::vector<PlyElement> elements;
   std::int64_t columns = 0, rows = 0;                      ///< obj_info num_cols, num_rows of an organized cloud
-  std::array<double, 7> viewpoint = Geometry().viewpoint;  ///< obj_info viewpoint, as our writer puts it
+  std::array<double, 7> viewpoint = Geometry().viewpoint;  ///< obj_info viewpoint, as writePly() writes it
   std::size_t body = 0;                                    ///< byte at which the values begin
-  std::int64_t line = 0;                                   ///< lines of the header
+  std::int64_t line = 0;                                   ///< number of lines of the header
 };
 
 /// Parses a header and checks that the file is long enough for the elements it counts.

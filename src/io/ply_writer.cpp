@@ -31,7 +31,7 @@ const char* plyType(FieldType type) {
   }
 }
 
-/// PCL packs a colour as 0xAARRGGBB.
+/// Adds the channels of a packed colour, in PCL 0xAARRGGBB.
 void addColor(PointTable& table, const Field& field) {
   const std::byte* const bytes = field.bytes.data();
   table.add({"red", FieldType::uint8, 1, bytes + 2, 4});
@@ -64,7 +64,7 @@ void addField(PointTable& table, const Field& field) {
 std::string header(const PointTable& table, const Geometry& geometry, const std::vector<Convention>& conventions) {
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   text += conventionLines(conventions, "comment tufted ", true);
-  // A comment: PCL's own way, an element `camera` of floats, would round the pose of a georeferenced scan.
+  // In obj_info, because floats in PCL's element `camera` would round the pose of a georeferenced scan.
   if (geometry.viewpoint != Geometry().viewpoint) text += "obj_info viewpoint " + viewpointText(geometry) + "\n";
   if (geometry.height > 1) {
     text += "obj_info num_cols " + std::to_string(geometry.width) + "\n";

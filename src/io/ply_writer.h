@@ -9,8 +9,7 @@
 
 namespace tufted::io {
 
-/// Writes points.ply as documented at writeLaplacian.
-/// @param M the masses to write
+/// Writes points.ply as documented at writeLaplacian().
 /// @throws IoError
 void writePly(const OutputPath& to, const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M,
               const std::vector<Convention>& conventions);

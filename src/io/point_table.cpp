@@ -20,7 +20,7 @@ bool fitsFloat(double value) {
   return static_cast<double>(static_cast<float>(value)) == value || std::isnan(value);
 }
 
-/// Whether a field of the input bears a name that normals have.
+/// Whether a field of the input has a name that normals have.
 bool namesNormals(const Geometry& geometry) {
   constexpr const char* names[] = {"nx", "ny", "nz", "normal_x", "normal_y", "normal_z"};
   return std::any_of(geometry.fields.begin(), geometry.fields.end(), [&](const Field& field) {
@@ -51,7 +51,7 @@ void PointTable::addTriple(const std::array<const char*, 3>& names, const Points
     }
     first = made;
   }
-  const std::size_t bytes = values.size() > 0 ? sizeOf(type) : 0;  // no points: no memory to step through
+  const std::size_t bytes = values.size() > 0 ? sizeOf(type) : 0;  // without points there is no memory
   for (std::size_t c = 0; c < 3; ++c) add({names[c], type, 1, first + c * bytes, 3 * bytes});
 }
 
@@ -78,7 +78,7 @@ PointTable pointTable(const Laplacian& laplacian, const Geometry& geometry, cons
       {"boundary", FieldType::uint8, 1, bytesOf(laplacian.boundary.data()), 1},
       {"status", FieldType::uint8, 1, bytesOf(laplacian.status.data()), 1},
       {"representative", FieldType::int32, 1, bytesOf(laplacian.representative.data()), sizeof(int)}};
-  if (laplacian.status.empty() && geometry.points.rows() > 0) results.clear();  // no Laplacian
+  if (laplacian.status.empty() && geometry.points.rows() > 0) results.clear();  // results without a Laplacian
 
   PointTable table(geometry.points.rows());
   table.addTriple({"x", "y", "z"}, geometry.points);

@@ -6,7 +6,8 @@
 
 namespace tufted::io {
 
-/// Why seven numbers are not a valid pose of a sensor, see Geometry::viewpoint; null if they are.
+/// Checks a pose of the sensor, see Geometry::viewpoint.
+/// @return why it is not valid; null if it is
 inline const char* poseFault(const std::array<double, 7>& pose) {
   if (!std::all_of(pose.begin(), pose.end(), [](double value) { return std::isfinite(value); }))
     return "a viewpoint that is not finite";

@@ -22,7 +22,7 @@ Points readPositions(const std::filesystem::path& path, std::size_t points) {
   if (array.shape.size() != 2 || array.shape[1] != 3 || (array.shape[0] != n && array.shape[0] != 0))
     refuse(path, "is not an array of " + std::to_string(n) + " x 3 values, a position for each row of L");
   const std::vector<double> numbers = numbersOf(array, path);
-  if (numbers.empty()) return {};  // a part of an array without data has no address
+  if (numbers.empty()) return {};  // an empty vector has no data() to map
   return Eigen::Map<const Points>(numbers.data(), array.shape[0], 3);
 }
 

@@ -11,11 +11,11 @@ namespace tufted::io {
 
 inline constexpr const char* positions_name = "measured_positions.npy";
 
-/// Writes the positions that lengths are measured between as N x 3, float64.
+/// Writes Laplacian::positions as N x 3, float64.
 void writePositions(const OutputPath& to, const Points& positions);
 
-/// Reads positions.
-/// @throws IoError unless there is one for each point, or none at all
+/// Reads positions, one per point or none.
+/// @throws IoError for another number of positions
 Points readPositions(const std::filesystem::path& path, std::size_t points);
 
 /// Checks that active points have finite positions.

@@ -29,7 +29,7 @@ class MatrixCheck {
 
   void run() {
     for (int j = 0; j < static_cast<int>(laplacian_.L.cols()); ++j) {
-      passAbove(j, j);  // all that have a partner were met from the columns before
+      passAbove(j, j);  // entries still not compared have no partner below the diagonal
       checkColumn(j);
     }
   }
@@ -59,7 +59,7 @@ class MatrixCheck {
     if (!isActive(laplacian_, j)) return;
     if (!(diagonal > 0))
       refuseEntry(j, j, diagonal, "be above 0: by status.npy point " + std::to_string(j) + " is active");
-    // The diagonal and the sum of the others add up the same terms, all of one sign, in different orders.
+    // The diagonal is minus the sum of the others, whose terms have one sign, up to the order of summation.
     const double rounding = (start_[j + 1] - start_[j]) * std::numeric_limits<double>::epsilon();
     const double sum = off_diagonal + diagonal;
     if (!(std::abs(sum) <= rounding * diagonal))
@@ -67,12 +67,12 @@ class MatrixCheck {
                         ", must sum to 0 within rounding");
   }
 
-  /// An entry that is not stored is 0.
+  /// Refuses L(i, j) = below unless L(j, i) = above is the same; 0: not stored.
   void compare(int i, int j, double below, double above) const {
     if (below != above) refuse(path_, entry(i, j, below) + ", " + entry(j, i, above) + ", must be equal");
   }
 
-  /// The entry in row i of column j, above the diagonal. To be asked for in the order of the rows.
+  /// The entry in row i of column j, above the diagonal; 0 if not stored. To be called with ascending i for each j.
   double takeAbove(int i, int j) {
     passAbove(i, j);
     const int k = above_[j];
@@ -81,7 +81,7 @@ class MatrixCheck {
     return value_[k];
   }
 
-  /// Goes on to row i of column j; the entries in between were not asked for, so those across from them are not stored.
+  /// Advances to row i of column j. Entries that are skipped have no partner below the diagonal, so they must be 0.
   void passAbove(int i, int j) {
     for (int& k = above_[j]; k < start_[j + 1] && row_[k] < i; ++k) compare(j, row_[k], 0, value_[k]);
   }
@@ -91,7 +91,7 @@ class MatrixCheck {
   const int* start_;
   const int* row_;
   const double* value_;
-  std::vector<int> above_;  ///< of each column the first entry above the diagonal that was not compared yet
+  std::vector<int> above_;  ///< for each column the first entry above the diagonal that is not yet compared
 };
 
 void checkMasses(const std::filesystem::path& path, const Laplacian& laplacian) {

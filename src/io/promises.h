@@ -6,9 +6,9 @@
 
 namespace tufted::io {
 
-/// Checks the rules of validate() for a Laplacian, except those that take a factorisation or the cover. O(N).
-/// @param dir the folder it was read from, whose files are named
-/// @param laplacian its arrays fit each other, and the rows of L ascend in each column
+/// Checks in O(N) the rules of validate() that need neither a factorisation nor the cover.
+/// @param dir the folder that the Laplacian was read from, for errors
+/// @param laplacian with arrays of matching sizes, and rows of L that ascend in each column
 /// @throws IoError naming the file, the entry and the rule
 void requirePromises(const std::filesystem::path& dir, const Laplacian& laplacian);
 

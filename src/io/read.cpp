@@ -85,7 +85,7 @@ Geometry readFormat(const std::filesystem::path& path, std::string_view bytes, b
   return io::readXyz(path, bytes);
 }
 
-/// Runs `work`; that the memory does not suffice is said of the file.
+/// Runs `work`. @throws FileTooLarge naming the path when memory does not suffice
 template <class Work>
 Geometry withinMemory(const std::filesystem::path& path, const Work& work) {
   try {

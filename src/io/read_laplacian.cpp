@@ -35,7 +35,7 @@ std::vector<double> readArray(const Path& path, std::size_t length) {
 Report readReport(const Json& json, const Path& path) {
   Report report;
   visitNumbers(report, [&](const char* name, auto& value) { io::readMember(json, name, path, value); });
-  if (!json.contains("star_masses")) report.star_masses = report.active;  // of a version that did not say
+  if (!json.contains("star_masses")) report.star_masses = report.active;  // versions without this member
   for (const Json& stage : json.value("stages", Json::array())) {
     if (!stage.is_object()) io::refuse(path, "has a stage that is no object");
     StageCost& cost = report.stages.emplace_back();
@@ -46,8 +46,8 @@ Report readReport(const Json& json, const Path& path) {
   return report;
 }
 
-/// Directories of before there was `kind` have the options of the build, if the command wrote them.
-/// @param needed whether anything depends on it, which is the scale of the cover
+/// Reads the kind, which in reports of older versions follows from the options of the build, if present.
+/// @param needed whether an unknown kind is an error, because the scale of the cover depends on it
 Kind readKind(const Json& json, bool needed, const Path& path) {
   const Json kind = json.value("kind", Json());
   if (kind == "cloud") return Kind::cloud;
@@ -59,7 +59,7 @@ Kind readKind(const Json& json, bool needed, const Path& path) {
   return of_cloud ? Kind::cloud : Laplacian().kind;
 }
 
-/// Versions before there was `orientation` did not know any.
+/// Reads the orientation of the frames; arbitrary in reports of older versions.
 Orientation readOrientation(const Json& json, const Path& path) {
   const Json orientation = json.value("orientation", Json());
   if (orientation.is_null()) return Orientation::arbitrary;
@@ -71,7 +71,7 @@ Orientation readOrientation(const Json& json, const Path& path) {
 
 constexpr const char* noise_name = "noise.npy";
 
-/// @returns a value for each point, or none at all
+/// Reads noise.npy. @return a value for each point, or none
 VectorXd readNoise(const Path& path, std::size_t points) {
   const Eigen::MatrixXd values = tufted::readArray(path);
   const auto n = static_cast<Eigen::Index>(points);
@@ -83,7 +83,8 @@ VectorXd readNoise(const Path& path, std::size_t points) {
   return values.rows() > 0 ? VectorXd(values.col(0)) : VectorXd();
 }
 
-/// Undoes WriteOptions::dummy. Whatever else points that are not active have stays, to be found by those who check.
+/// Undoes WriteOptions::dummy. Other entries of points that are not active are kept, so that validation can report
+/// them.
 void removeDummies(Laplacian& laplacian) {
   laplacian.L.prune(
       [&](Eigen::Index i, Eigen::Index j, double) { return i != j || laplacian.status[i] == PointStatus::active; });
@@ -91,8 +92,8 @@ void removeDummies(Laplacian& laplacian) {
     if (laplacian.status[i] != PointStatus::active) laplacian.M[static_cast<Eigen::Index>(i)] = 0;
 }
 
-/// The edges of each component. Older versions wrote those of the whole surface alone, into the report.
-/// @param laplacian with its components
+/// Reads the edges of each component. Older versions wrote only those of the whole surface, into the report.
+/// @param laplacian with components and report
 std::vector<ComponentEdges> readEdges(const io::ResultFolder& folder, const Laplacian& laplacian) {
   const std::size_t components = componentSizes(laplacian.component).size();
   if (folder.has(io::component_edges_name))
@@ -116,7 +117,7 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   const bool takes_cover = with_cover && folder.has("cover.npz");
   laplacian.kind = readKind(json, takes_cover, report_path);
   laplacian.report = readReport(json["report"], report_path);
-  // The arrays with a value per point are not compressed, so the sizes of their files bound how many points L may have.
+  // Arrays with a value per point are not compressed, so their size bounds the number of rows that L may have.
   io::MatrixFile matrix(matrix_path);
   const auto n = static_cast<std::size_t>(matrix.rows());
   const std::vector<double> mass = readArray(mass_path, n);
@@ -129,7 +130,7 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
     laplacian.boundary.push_back(static_cast<Boundary>(code));
   laplacian.frames = io::readFrames(frames_path, n);
   laplacian.frames.orientation = readOrientation(json, report_path);
-  // Older versions did not write it.
+  // Older versions did not write these files.
   if (folder.has(io::positions_name)) laplacian.positions = io::readPositions(folder.pathOf(io::positions_name), n);
   if (folder.has(noise_name)) laplacian.noise = readNoise(folder.pathOf(noise_name), n);
   laplacian.L = matrix.read();
@@ -144,7 +145,7 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
 Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
   Laplacian laplacian = readUncheckedLaplacian(dir, with_cover);
   const auto n = std::ssize(laplacian.status);
-  const auto counted = laplacian.report.points;  // 0 where a program of one's own left it out
+  const auto counted = laplacian.report.points;  // 0 if another program wrote the report without it
   if (counted != n && counted != 0)
     io::refuse(dir / io::report_name,
                "counts " + std::to_string(counted) + " points, and L has " + std::to_string(n) + " rows");

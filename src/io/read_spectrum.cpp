@@ -11,7 +11,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The greatest |L x - lambda M x| / (lambda |M x|) of positive eigenvalues.
+/// The greatest |L x - lambda M x| / (lambda |M x|) over the positive eigenvalues.
 double greatestResidual(const Laplacian& laplacian, const Spectrum& spectrum) {
   double greatest = 0;
   for (Eigen::Index k = 0; k < spectrum.values.size(); ++k) {
@@ -19,7 +19,7 @@ double greatestResidual(const Laplacian& laplacian, const Spectrum& spectrum) {
     if (value == 0) continue;
     const VectorXd right = value * laplacian.M.cwiseProduct(spectrum.vectors.col(k));
     const double residual = (laplacian.L * spectrum.vectors.col(k) - right).norm() / right.norm();
-    if (!(residual <= greatest)) greatest = residual;  // one that is not a number stays
+    if (!(residual <= greatest)) greatest = residual;  // written so that NaN becomes the greatest
   }
   return greatest;
 }
@@ -62,7 +62,7 @@ Spectrum readSpectrum(const Path& dir, const Laplacian& laplacian) {
   report.method = "read";
   report.null_space = static_cast<int>(std::count(spectrum.values.begin(), spectrum.values.end(), 0.0));
   report.residual = greatestResidual(laplacian, spectrum);
-  // Ten times what was found then, for rounding may add up in another order.
+  // Ten times the residual that was written, because rounding may differ.
   if (!(report.residual <= 10 * (said.is_number() ? said.get<double>() : 0) + 1e-8))
     io::refuse(dir / "evecs.npy", "does not hold the eigenvectors of evals.npy");
   return spectrum;

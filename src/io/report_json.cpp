@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Spaces per level.
+/// Spaces per level of nesting.
 constexpr int indent = 2;
 
 Json reportObject(const Report& report) {
@@ -29,7 +29,7 @@ Json conventionsObject(const std::vector<io::Convention>& conventions) {
   Json json;
   for (const io::Convention& convention : conventions)
     json[Json::json_pointer("/" + convention.name)] = convention.text;
-  json["status"] = {"active", "not_finite", "coincident", "isolated"};  // by number
+  json["status"] = {"active", "not_finite", "coincident", "isolated"};  // names by value of PointStatus
   json["boundary"] = {"none", "rim", "jump", "lost"};
   return json;
 }
@@ -59,7 +59,7 @@ Json denoiseObject(const DenoiseReport& report) {
           {"seconds", report.seconds}};
 }
 
-/// What clouds and meshes have in common.
+/// The options that clouds and meshes share.
 template <class Options>
 Json commonOptions(const Options& options) {
   return {{"order", name(options.paper.order)},

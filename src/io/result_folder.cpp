@@ -13,7 +13,7 @@ namespace io {
 
 ResultFolder::ResultFolder(const std::filesystem::path& dir) : dir_(dir), report_(readJson(dir / report_name)) {
   if (!report_.is_object()) refuse(reportPath(), "is no report of a result");
-  // Folders of a Laplacian from before there was `files` list them among the options of writing.
+  // Older versions listed a Laplacian's files in `write_options`.
   nlohmann::json list = report_.value("files", nlohmann::json());
   const nlohmann::json written = report_.value("write_options", nlohmann::json());
   if (list.is_null() && written.is_object()) list = written.value("files", nlohmann::json());
@@ -45,14 +45,14 @@ std::vector<std::string> filesOfResult(const std::filesystem::path& dir) {
 Geometry readPoints(const std::filesystem::path& dir, const Progress& progress) {
   const io::ResultFolder folder(dir);
   const nlohmann::json kind = folder.report().value("kind", nlohmann::json());
-  // PCD holds all fields as they are, PLY the triangles of a mesh.
+  // For clouds PCD is preferred, which keeps all fields; for meshes PLY, which has triangles.
   std::vector<std::string> names = {"points.ply", "points.pcd"};
   if (kind == "cloud") std::swap(names[0], names[1]);
   const auto name = std::find_if(names.begin(), names.end(), [&](const std::string& each) { return folder.has(each); });
   if (name == names.end()) return {};
   Geometry geometry =
       read(dir / *name, kind == "cloud" ? ReadAs::cloud : ReadAs::automatic, FileFormat::automatic, progress);
-  // A file without a face does not tell that it is of a mesh.
+  // A mesh without a face reads as a cloud.
   if (kind == "mesh" && *name == "points.ply") geometry.is_mesh = true;
   const nlohmann::json input = folder.report().value("input", nlohmann::json());
   io::readMember(input, "polygons", folder.reportPath(), geometry.polygons);

@@ -39,7 +39,8 @@ void check(const Laplacian& laplacian, const Geometry& geometry, const std::vect
       throw InvalidInput("writeResults: copies of the points are ply or pcd");
 }
 
-/// @param descr numpy's name of the type of `Number`
+/// Writes values as a .npy file.
+/// @param descr numpy's name of the type `Number`
 template <class Number>
 void writeArray(const io::OutputPath& to, const char* descr, const Eigen::MatrixXd& values) {
   const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = values.cast<Number>();
@@ -50,7 +51,7 @@ void writeArray(const io::OutputPath& to, const char* descr, const Eigen::Matrix
   file.close();
 }
 
-/// Float32: what viewers and PCL take without conversion; the arrays keep all digits.
+/// A field of float32, which viewers and PCL take without conversion; NAME.npy keeps all digits.
 Field fieldOf(const ResultArray& array) {
   Field field = {array.name, FieldType::float32, static_cast<int>(array.values.cols()), {}};
   const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = array.values.cast<float>();
@@ -59,7 +60,7 @@ Field fieldOf(const ResultArray& array) {
   return field;
 }
 
-/// Whether a field has the name, or that of one of its columns as copies in PLY have them: NAME_3.
+/// Whether a field is called `name`, or like one of its columns in copies in PLY, such as NAME_3.
 bool isNamed(const std::string& field, const std::string& name) {
   if (field.rfind(name, 0) != 0) return false;
   const std::string rest = field.substr(name.size());
@@ -67,7 +68,7 @@ bool isNamed(const std::string& field, const std::string& name) {
          (rest.size() > 1 && rest[0] == '_' && rest.find_first_not_of("0123456789", 1) == std::string::npos);
 }
 
-/// The points with the results in place of fields of these names.
+/// The points with the results as fields, which replace fields of the same names.
 Geometry copyWith(const Geometry& geometry, const std::vector<ResultArray>& arrays) {
   Geometry copy = geometry;
   for (const ResultArray& array : arrays) {

@@ -11,7 +11,7 @@
 namespace tufted {
 namespace {
 
-constexpr double slack = 1.001;  // of a turn, for rounding and for the points that the last firing added
+constexpr double slack = 1.001;  // azimuths may exceed a turn by this factor: rounding, the last firing
 
 const Field* fieldNamed(const Geometry& geometry, const char* name) {
   const auto field = std::find_if(geometry.fields.begin(), geometry.fields.end(),
@@ -19,15 +19,15 @@ const Field* fieldNamed(const Geometry& geometry, const char* name) {
   return field == geometry.fields.end() ? nullptr : &*field;
 }
 
-/// The number of a ring; negative if the value is not one.
+/// The ring number of a point; negative if the value is none.
 int ringAt(const Field& field, std::size_t i) {
   const double value = valueOf(field, i);
   return value >= 0 && value < (1 << 30) ? static_cast<int>(value) : -1;
 }
 
-/// Azimuths in radians. Files do not state the unit; drivers use radians, degrees and hundredths of degrees, and the
-/// first of these whose full turn covers all values is taken. A narrow sector may be taken for another unit; its points
-/// keep their order around the axis, which suffices, and so with any zero and sense of turning.
+/// Azimuths in radians. Files do not state the unit: drivers use radians, degrees and hundredths of degrees. The first
+/// of these whose full turn covers all values is assumed. It may be wrong for a narrow sector, but only the order of
+/// points around the axis matters, from any zero and in either direction.
 std::vector<double> azimuthsOf(const Field& field, const Points& points, const std::string& name) {
   std::vector<double> azimuth(static_cast<std::size_t>(points.rows()));
   double largest = 0;
@@ -52,15 +52,15 @@ ScanStructure ringsOf(const Geometry& geometry, const std::string& name) {
   const auto& pose = geometry.viewpoint;
   const Eigen::Vector3d origin(pose[0], pose[1], pose[2]);
   Eigen::Quaterniond turn(pose[3], pose[4], pose[5], pose[6]);
-  turn.coeffs() /= turn.coeffs().cwiseAbs().maxCoeff();  // the square of its length neither over- nor underflows
-  // The scanner's frame, whose z axis it turns around.
+  turn.coeffs() /= turn.coeffs().cwiseAbs().maxCoeff();  // so that squares neither overflow nor underflow
+  // Points in the frame of the scanner, which turns around the z axis.
   const Points seen = (geometry.points.rowwise() - origin.transpose()) * turn.normalized().toRotationMatrix();
   const auto byElevation = [&] {
     try {
       return findRings(seen);
     } catch (const InvalidInput& error) {
       std::string why = error.what();
-      why.erase(0, why.find(": ") + 2);  // the name of the function, which readers of files do not know
+      why.erase(0, why.find(": ") + 2);  // removes the name of the function, which users of files do not know
       throw IoError(name + ": has no field `ring`, and its elevations show no rings: " + why);
     }
   };

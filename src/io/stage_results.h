@@ -7,7 +7,7 @@
 
 namespace tufted::io {
 
-/// Stages the copies of the points with the arrays as fields, and report.json, as writeResults does.
+/// Stages copies of the points with the arrays as fields, and report.json, as documented at writeResults().
 void stageResults(StagedFiles& files, const Laplacian& laplacian, const Geometry& geometry,
                   const std::vector<ResultArray>& arrays, const ResultOptions& options);
 

@@ -19,8 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Refuses a name that something has which a rename would take away, and which is no file of results: a directory, a
-/// device, a pipe, or a link, which says that the bytes belong elsewhere.
+/// Refuses a path that is a directory, a device, a pipe or a link, which renaming would replace.
 void refuseOdd(const fs::path& path) {
   std::error_code error;
   const fs::file_type type = fs::symlink_status(path, error).type();
@@ -36,7 +35,7 @@ StagedFiles::StagedFiles(const fs::path& dir) : dir_(dir) {
   int attempts = 100;  // another process may make the directory and remove it again
   while (!makeHiddenFolder(attempts > 1)) --attempts;
   try {
-    OpenPath(dir_, O_DIRECTORY, dir_);  // as commit() will have to
+    OpenPath(dir_, O_DIRECTORY, dir_);  // fails now instead of in commit()
   } catch (...) {
     removeHiddenFolder();
     removeMade();
@@ -52,15 +51,15 @@ StagedFiles::~StagedFiles() {
 bool StagedFiles::makeDirectory(bool may_vanish) {
   std::error_code error;
   made_.clear();
-  // Not what a link points to: a link that leads nowhere is not ours to remove.
+  // symlink_status(), because a link whose target is missing exists, and must not be removed later.
   for (auto missing = fs::absolute(dir_, error);
        fs::symlink_status(missing, error).type() == fs::file_type::not_found && missing.has_relative_path();
        missing = missing.parent_path())
     made_.insert(made_.begin(), missing);
   fs::create_directories(dir_, error);
   if (error) {
-    removeMade();  // some parents may be there by now
-    // Either it vanished before a directory was made within it, or after it was found to be there.
+    removeMade();  // some parents may have been made
+    // Another process removed a parent before a directory was made in it, or the directory after it was found to exist.
     const bool vanished = error == std::errc::no_such_file_or_directory || error == std::errc::file_exists;
     if (may_vanish && vanished) return false;
     refuse(dir_, "cannot make the directory: " + error.message());
@@ -101,11 +100,11 @@ std::vector<std::string> StagedFiles::names() const {
 void StagedFiles::keepOld(File& file) {
   const char* const name = file.path.shown.c_str();
   const fs::path old = oldOf(file);
-  refuseOdd(file.path.shown);  // another process may have made it meanwhile
-  // A second link, so that the name always has a file.
+  refuseOdd(file.path.shown);  // another process may have made it since stage()
+  // A hard link first, so that the name always refers to a file.
   file.has_old = ::linkat(AT_FDCWD, name, AT_FDCWD, old.c_str(), 0) == 0;
   if (file.has_old || errno == ENOENT) return;
-  // Not every file system has links, and not every file of others may be linked to.
+  // Some file systems have no hard links, and files of other users may not be linked to.
   file.has_old = ::rename(name, old.c_str()) == 0;
   if (!file.has_old && errno != ENOENT) refuseErrno(file.path.shown, "write", errno);
 }
@@ -135,7 +134,7 @@ void StagedFiles::syncParents() const {
     try {
       OpenPath(made.parent_path(), O_DIRECTORY, made).sync();
     } catch (const IoError&) {
-      // A directory may let one make others in it and not be read.
+      // A directory may be writable but not readable, and then cannot be opened.
     }
   }
 }
@@ -153,17 +152,17 @@ void StagedFiles::commit() {
     syncParents();
   } catch (const std::exception& error) {
     if (putBack()) throw;
-    hidden_.clear();  // stays
+    hidden_.clear();  // keeps the hidden folder
     throw IoError(std::string(error.what()) + "; what was there before could not be put back from " + old_.string());
   }
   made_.clear();
-  const fs::path replaced = hidden_ / "replaced";  // in one step, for whoever looks for what is lost
+  const fs::path replaced = hidden_ / "replaced";  // old/ disappears in one step, as it marks an unfinished commit
   if (::rename(old_.c_str(), replaced.c_str()) == 0) old_ = replaced;
 }
 
 void StagedFiles::removeHiddenFolder() {
   if (hidden_.empty()) return;
-  // By name and not all that is there: no mistake of ours could then remove a directory of others.
+  // Only files known by name, so that no mistake can remove other files.
   std::error_code ignored;
   for (const File& file : files_) {
     fs::remove(file.path.path, ignored);

@@ -8,42 +8,43 @@
 
 namespace tufted::io {
 
-/// The files of one result, which appear together. Each is written in a hidden folder, DIR/.tufted-XXXXXX, inside the
-/// directory DIR it will stay in; commit() gives all of them their names, or none. Without it they are removed, with
-/// the hidden folder and the directories that were made for them. Other files in DIR are never touched.
+/// The files of one result, which appear together or not at all. They are written into a hidden folder,
+/// DIR/.tufted-XXXXXX, in their directory DIR, and commit() renames all of them. Without that call they are removed,
+/// with the hidden folder and the directories that were made for them. Other files in DIR are never touched.
 class StagedFiles {
  public:
-  /// Makes `dir` with its parents where missing, and the hidden folder.
-  /// @throws IoError
+  /// Makes `dir` and its parents if missing, and the hidden folder.
+  /// @throws IoError naming the path
   explicit StagedFiles(const std::filesystem::path& dir);
   ~StagedFiles();
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// The path in the hidden folder under which to write the file `name`, and the path that it will have.
-  /// @throws IoError where a directory, a link, a device or a pipe has that name
+  /// Adds a file called `name`.
+  /// @return the path in the hidden folder under which to write it, and the path that it will have
+  /// @throws IoError if a directory, a link, a device or a pipe has that name
   OutputPath stage(const std::string& name);
 
-  /// The names of all files so far, in their order.
+  /// The names of all files added so far, in order.
   std::vector<std::string> names() const;
 
-  /// Brings the files to the disk, then renames them one after the other, while every other process that commits to
-  /// `dir` waits. What had their names is kept in the hidden folder meanwhile, under old/, and is put back if a step
-  /// fails. The last file is to say which the others are: no file has its name while they are renamed. A process that
-  /// is killed between two renames so leaves files that nobody takes for a result, and the hidden folder, so nothing is
-  /// lost; a hidden folder without old/ is of no use.
-  /// @throws IoError
+  /// Flushes the files to disk, then renames them one after the other, while other processes that commit to `dir` wait.
+  /// Existing files of these names are kept in old/ in the hidden folder meanwhile, and put back if a step fails. The
+  /// last file must be the one that lists the others, report.json: it is missing while they are renamed. So if the
+  /// process is killed, the files do not look like a result, and old/ has those replaced. A hidden folder without old/
+  /// can be deleted.
+  /// @throws IoError naming the path
   void commit();
 
  private:
   struct File {
     OutputPath path;
-    bool has_old = false;    ///< whether a former file of that name is kept
-    bool is_placed = false;  ///< whether the new file has its name
+    bool has_old = false;    ///< whether an existing file of that name was moved or linked to old/
+    bool is_placed = false;  ///< whether the new file was renamed
   };
 
   /// Makes `dir_` with its parents.
-  /// @param may_vanish gives false where another process has just removed one of them, otherwise that is an error
+  /// @param may_vanish whether to return false if another process has just removed one of them, instead of throwing
   bool makeDirectory(bool may_vanish);
   /// Makes the hidden folder as well.
   bool makeHiddenFolder(bool may_vanish);
@@ -51,9 +52,9 @@ class StagedFiles {
   static void removeName(const File& file);
   void place(File& file);
   std::filesystem::path oldOf(const File& file) const { return old_ / file.path.shown.filename(); }
-  /// @returns whether `dir_` is again as it was before keepOld() and place()
+  /// Undoes keepOld() and place(). Returns false if a file could not be put back.
   bool putBack();
-  /// Brings the names of the directories made to the disk.
+  /// Flushes the names of the directories that were made to disk.
   void syncParents() const;
   void removeHiddenFolder();
   /// Removes the directories that were made and are empty.
@@ -61,8 +62,8 @@ class StagedFiles {
 
   std::filesystem::path dir_;
   std::filesystem::path hidden_;
-  std::filesystem::path old_;                ///< folder in the hidden one for the former files of these names
-  std::vector<std::filesystem::path> made_;  ///< directories, the outermost first
+  std::filesystem::path old_;                ///< old/ in the hidden folder, for the files that are replaced
+  std::vector<std::filesystem::path> made_;  ///< directories that were made, the outermost first
   std::vector<File> files_;
 };
 

@@ -14,13 +14,13 @@
 namespace tufted::io {
 namespace {
 
-constexpr std::size_t header_bytes = 84;  // 80 of any text, then the number of triangles
-constexpr std::size_t facet_bytes = 50;   // the normal, three corners, two bytes of attributes
-/// Bytes at the start of a file that tell text from numbers: those of a binary STL have a zero among its first two
+constexpr std::size_t header_bytes = 84;  // 80 bytes of any text, then the number of triangles
+constexpr std::size_t facet_bytes = 50;   // normal, three corners, two bytes of attributes
+/// So many bytes at the start of a file tell text from a binary STL, which has a zero byte within its first two
 /// triangles.
 constexpr std::size_t most_of_name = 1024;
 
-/// The corners of all triangles, three by three.
+/// Corners of triangles; each three in a row are a triangle.
 class Soup {
  public:
   explicit Soup(const std::filesystem::path& path) : path_(path) {}
@@ -31,7 +31,7 @@ class Soup {
     corners_.insert(corners_.end(), corner.begin(), corner.end());
   }
 
-  /// Equal corners become one vertex.
+  /// The mesh of the triangles, in which equal corners are one vertex.
   Geometry geometry() const {
     const auto corners = static_cast<Eigen::Index>(corners_.size() / 3);
     Geometry geometry;
@@ -55,12 +55,12 @@ std::uint32_t binaryCount(std::string_view bytes) {
   return count;
 }
 
-/// Bytes 80 to 83 of a text would count more triangles than fit into any file below 7 GB.
+/// Whether the file is long enough for the count in bytes 80 to 83. Text there would be too large a count below 7 GB.
 bool isBinary(std::string_view bytes) {
   return bytes.size() >= header_bytes && (bytes.size() - header_bytes) / facet_bytes >= binaryCount(bytes);
 }
 
-/// The first words of the first two lines.
+/// The first word of each of the first two lines, in lower case.
 std::array<std::string, 2> firstWords(std::string_view bytes) {
   const std::filesystem::path nowhere;
   LineScanner scanner(nowhere, bytes.substr(0, most_of_name));
@@ -70,8 +70,8 @@ std::array<std::string, 2> firstWords(std::string_view bytes) {
   return words;
 }
 
-/// Binary files may begin with `solid` as well, and those that are cut off may be too short for their count. What is
-/// text but has another first word is taken for text, to name that word.
+/// Whether the file is text. A binary file may begin with `solid` too, and a truncated one is too short for its count.
+/// Text with another first word counts as text, so that the error names that word.
 bool isAscii(std::string_view bytes) {
   if (isBinary(bytes)) return false;
   const auto [first, second] = firstWords(bytes);
@@ -82,7 +82,7 @@ bool isAscii(std::string_view bytes) {
                      [](char c) { return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r'); });
 }
 
-/// @returns where the last triangle ends
+/// @return byte at which the last triangle ends
 std::size_t readBinary(const std::filesystem::path& path, std::string_view bytes, Soup& soup) {
   if (bytes.size() < header_bytes) refuseByte(path, bytes.size(), "ends there, neither ascii nor binary STL");
   const std::uint64_t count = binaryCount(bytes);
@@ -97,8 +97,8 @@ std::size_t readBinary(const std::filesystem::path& path, std::string_view bytes
   return end;
 }
 
-/// Reads to the end of the last solid.
-/// @returns whether a line follows that begins none; it is the scanner's
+/// Reads all solids.
+/// @return whether a line follows that begins no solid; it is then the scanner's current line
 bool readAscii(LineScanner& scanner, Soup& soup) {
   bool in_solid = false, any = false;
   int corners = -1;  // of the open facet

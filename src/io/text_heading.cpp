@@ -16,7 +16,7 @@ std::string_view strip(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
-/// Takes the next line, which \n, \r\n or a lone \r ends.
+/// Takes the next line, which ends with \n, \r\n or a lone \r, off `rest`.
 std::string_view takeLine(std::string_view& rest) {
   const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
   const std::string_view line = rest.substr(0, end);
@@ -25,10 +25,9 @@ std::string_view takeLine(std::string_view& rest) {
   return line;
 }
 
-/// The pieces of a line between commas, semicolons, tabs or blanks, whichever of them there is first in this order. A
-/// piece in quotes may hold them.
+/// Splits a line at commas if it has any, otherwise at semicolons, tabs or blanks, in this order, except in quotes.
 std::vector<std::string> split(std::string_view line) {
-  line = line.substr(0, line.find_last_not_of(",;\t ") + 1);  // a delimiter may end a line
+  line = line.substr(0, line.find_last_not_of(",;\t ") + 1);  // a delimiter at the end of a line is ignored
   char delimiter = ' ';
   for (const char c : {'\t', ';', ','})
     if (line.find(c) != std::string_view::npos) delimiter = c;

@@ -7,9 +7,9 @@
 namespace tufted::io {
 namespace {
 
-/// @param rest what is not read
+/// Notes that the bytes `rest` are skipped, or refuses them if no point was read.
 void note(const std::filesystem::path& path, const std::string& place, std::string_view rest, Geometry& geometry) {
-  const bool are_zero = rest.find_first_not_of('\0') == std::string_view::npos;  // PCL's writer pads files so
+  const bool are_zero = rest.find_first_not_of('\0') == std::string_view::npos;  // padding by PCL's writer
   const std::string count =
       std::to_string(rest.size()) + (are_zero ? " zero" : "") + (rest.size() == 1 ? " byte" : " bytes");
   if (geometry.points.rows() == 0) refuse(path, place + ": " + count + " behind a header that counts no points");

@@ -8,19 +8,20 @@
 
 namespace tufted::io {
 
-/// Notes the bytes behind the last record that a file counts, which are passed over. Behind no record at all they are
-/// refused, as a file that holds something must not be read as an empty one.
-/// @param geometry what was read of the records
-/// @param end where the last record ends; nothing is noted if that is the end of the file
-/// @throws IoError naming the byte
+/// Notes in Geometry::notes that bytes after the last record are skipped, if there are any.
+/// @param bytes the whole file
+/// @param end byte at which the last record ends
+/// @param geometry the records that were read
+/// @throws IoError naming the byte if there are bytes but no record, because such a file must not be read as empty
 void noteUnread(const std::filesystem::path& path, std::string_view bytes, std::size_t end, Geometry& geometry);
 
-/// The same for a text whose last record is in the scanner's current line; blank lines and comments are no content.
+/// noteUnread() for a text whose last record is in the scanner's current line. Blank lines and comments do not count.
 /// @throws IoError naming the line
 void noteUnreadLines(const std::filesystem::path& path, std::string_view text, LineScanner& scanner,
                      Geometry& geometry);
 
-/// The same for a text whose records end before the scanner's current line.
+/// noteUnread() for a text whose last record is before the scanner's current line.
+/// @throws IoError naming the line
 void noteUnreadFromHere(const std::filesystem::path& path, std::string_view text, const LineScanner& scanner,
                         Geometry& geometry);
 

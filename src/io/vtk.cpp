@@ -12,12 +12,12 @@
 #include "io/unread.h"
 #include "io/vtk_body.h"
 
-// Reads polygonal data in VTK's legacy format, versions 1 to 5 (VTK User's Guide, "Simple Legacy Formats"), which PCL's
-// tools write. VTK itself is larger than all other dependencies together.
+// Reads polygonal data in VTK's legacy format, versions 1 to 5 (VTK User's Guide, "Simple Legacy Formats"), as PCL's
+// tools write it. Not by VTK, which is larger than all other dependencies together.
 namespace tufted::io {
 namespace {
 
-/// VTK writes %20 for a blank in a name.
+/// Replaces codes such as %20, which VTK writes for a blank in a name.
 std::string decoded(std::string_view name) {
   std::string text;
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -69,7 +69,7 @@ class VtkReader {
                    "makes it, and saves it as PLY or STL as well");
   }
 
-  /// False where no section begins that is known.
+  /// Reads a section. Returns false if the current line begins none.
   bool readSection() {
     const std::string word = body_.keyword(0);
     if (word == "points") {
@@ -129,7 +129,7 @@ class VtkReader {
       const std::string name = decoded(body_.word(1));
       keep(body_.values(name, body_.type(2), tuples_, 1), tuples_);
     } else {
-      // A word may begin a section that matters; anything else lies behind the last one.
+      // An unknown word may begin a section with values, so it is refused; other bytes follow the last section.
       const bool is_word =
           std::all_of(word.begin(), word.end(), [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; });
       if (is_word) body_.refuse("unknown word " + quote(body_.word(0)));
@@ -138,7 +138,7 @@ class VtkReader {
     return true;
   }
 
-  /// Colours are bytes, or in a text parts of 1.
+  /// Reads colours: bytes in a binary file, numbers from 0 to 1 in text.
   void readColors(std::int64_t channels) {
     const Field given = body_.values("", body_.isBinary() ? FieldType::uint8 : FieldType::float32, tuples_, channels);
     Field colors = {"rgba", FieldType::uint8, static_cast<int>(channels), {}};
@@ -150,12 +150,12 @@ class VtkReader {
     keep(std::move(colors), tuples_);
   }
 
-  /// Keeps values of points; cells have no place for theirs.
+  /// Keeps values if they are per point; values per cell are dropped.
   void keep(Field field, std::int64_t tuples) {
     if (are_of_points_ && tuples == rows_) addColumns(std::move(field));
   }
 
-  /// Adds a field, or its parts where those are known: xyz, normals, colours.
+  /// Adds a field, or its columns one by one if they have known names: xyz, normals, colours.
   void addColumns(Field field) {
     const std::vector<std::string> names = partNames(field.name, static_cast<std::size_t>(field.count));
     if (names.empty()) {
@@ -172,7 +172,8 @@ class VtkReader {
     }
   }
 
-  /// Reads cells: until version 4 each as its number of corners and the corners, later as offsets into all corners.
+  /// Reads cells. Until version 4 each is a number of corners and the corners; in version 5 there are offsets into a
+  /// list of all corners.
   void readCells(const std::string& word) {
     const std::int64_t first = body_.count(1), second = body_.count(2);
     const auto place = static_cast<std::int64_t>(body_.begin());
@@ -223,8 +224,8 @@ class VtkReader {
   const Progress& progress_;
   bool has_offsets_ = false;
   std::int64_t rows_ = 0;
-  std::int64_t tuples_ = 0;     ///< of the attributes that follow
-  bool are_of_points_ = false;  ///< whether they are those of points
+  std::int64_t tuples_ = 0;     ///< number of tuples of the attributes that follow
+  bool are_of_points_ = false;  ///< whether these attributes are per point
   Columns columns_;
   PolygonSoup soup_;
 };

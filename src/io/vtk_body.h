@@ -18,14 +18,14 @@
 
 namespace tufted::io {
 
-/// The type that VTK names so.
+/// The type that has this name in VTK.
 inline std::optional<FieldType> vtkType(std::string_view text) {
   const std::string name = lower(text);
   if (name == "char" || name == "signed_char") return FieldType::int8;
   if (name == "unsigned_char") return FieldType::uint8;
   if (name == "short") return FieldType::int16;
   if (name == "unsigned_short") return FieldType::uint16;
-  if (name == "int" || name == "vtkidtype") return FieldType::int32;  // whatever size an id has in the program
+  if (name == "int" || name == "vtkidtype") return FieldType::int32;  // vtkIdType: legacy files store 32 bits
   if (name == "unsigned_int") return FieldType::uint32;
   if (name == "long" || name == "vtktypeint64") return FieldType::int64;
   if (name == "unsigned_long" || name == "vtktypeuint64") return FieldType::uint64;
@@ -34,12 +34,12 @@ inline std::optional<FieldType> vtkType(std::string_view text) {
   return std::nullopt;
 }
 
-/// The lines and values of a file in VTK's legacy format, as text or binary.
+/// Reads the lines and values of a file in VTK's legacy format, text or binary.
 class VtkBody {
  public:
   VtkBody(const std::filesystem::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
 
-  /// Moves to the next line that holds a word. False at the end.
+  /// Moves to the next line that has a word. Returns false at the end.
   bool next() {
     offset_ = std::min(bytes_.find_first_not_of(blanks, offset_), bytes_.size());
     begin_ = offset_;
@@ -61,13 +61,13 @@ class VtkBody {
     return text;
   }
 
-  /// Whether an empty line or the end comes next, with which METADATA ends.
+  /// Whether an empty line or the end of the file follows, which ends METADATA.
   bool atBlankLine() const {
     const std::size_t end = bytes_.find_first_not_of(" \r", offset_);
     return end == std::string_view::npos || bytes_[end] == '\n';
   }
 
-  std::size_t begin() const { return begin_; }  ///< of the current line
+  std::size_t begin() const { return begin_; }  ///< byte at which the current line begins
   std::size_t words() const { return words_.size(); }
   std::string_view word(std::size_t w) const {
     if (w >= words_.size()) refuse("ends too early");
@@ -89,10 +89,10 @@ class VtkBody {
   void setBinary(bool binary) { is_binary_ = binary; }
   bool isBinary() const { return is_binary_; }
 
-  /// Takes `rows` times `count` values.
+  /// Reads `rows` times `count` values.
   Field values(std::string name, FieldType type, std::int64_t rows, std::int64_t count) {
     const std::size_t size = sizeOf(type), rest = bytes_.size() - offset_;
-    // The shortest value of a text is a digit and a blank, the last of which may be missing.
+    // In text a value takes at least a digit and a blank; the last blank may be missing.
     const double least =
         static_cast<double>(rows) * static_cast<double>(count) * (is_binary_ ? static_cast<double>(size) : 2);
     if (least > static_cast<double>(rest) + (is_binary_ ? 0 : 1))

@@ -16,7 +16,7 @@ struct PositionHash {
   std::size_t operator()(const Position& position) const {
     std::uint64_t hash = 0;
     for (const double c : position) {
-      // Adding zero makes -0 the same as 0, which compare equal.
+      // Adding zero turns -0 into 0, so that equal numbers have equal hashes.
       hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u;
       hash ^= hash >> 32;
     }
@@ -35,7 +35,7 @@ void weld(Geometry& geometry) {
   for (std::size_t i = 0; i < vertex.size(); ++i) {
     const Position position = {points(i, 0), points(i, 1), points(i, 2)};
     vertex[i] = kept;
-    // Corners that are not finite stay apart (CGAL 5.5 merges a NaN with any other corner).
+    // Corners that are not finite are never merged.
     if (points.row(i).allFinite()) {
       const auto [entry, inserted] = seen.try_emplace(position, kept);
       vertex[i] = entry->second;

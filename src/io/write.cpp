@@ -31,7 +31,7 @@ namespace {
 
 using io::OutputPath;
 
-/// What is written, in all its forms.
+/// What the files are written from.
 struct Results {
   const Laplacian& laplacian;
   const Geometry& geometry;
@@ -55,7 +55,7 @@ void writeReport(const OutputPath& to, const Results& results) {
 }
 
 struct ResultFile {
-  std::optional<Format> format;  ///< none: always written
+  std::optional<Format> format;  ///< nullopt: always written
   const char* name;
   void (*write)(const OutputPath& to, const Results& results);
 };
@@ -119,7 +119,7 @@ const ResultFile result_files[] = {
      [](const OutputPath& to, const Results& r) { io::writePositions(to, r.laplacian.positions); }},
     {std::nullopt, "components.npy",
      [](const OutputPath& to, const Results& r) {
-       // Only now: the sizes of L are refused by the formats before its entries are walked.
+       // Computed only here, after earlier formats have refused an L that is too large for them.
        const Laplacian& laplacian = r.laplacian;
        const std::vector<int> component =
            laplacian.component.empty() ? componentLabels(laplacian) : laplacian.component;

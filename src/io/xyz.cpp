@@ -19,16 +19,16 @@ namespace {
 constexpr LineScanner::Syntax syntax = {
     .separators = " \t\r\f\v,;\"", .delimiters = ",;", .comment = '#', .line_comment = "//"};
 
-/// Rows of equally many numbers.
+/// Rows with the same number of values.
 struct Numbers {
   std::vector<double> values;
   std::size_t columns = 0;
-  bool go_on = false;  ///< more rows follow than are announced, from the scanner's line on
+  bool go_on = false;  ///< whether more rows follow than were announced, from the scanner's current line on
 
   std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
 };
 
-/// Takes the number of columns from the first row, and says by the names which column has none.
+/// Sets the number of columns from the first row, and makes the heading's names match it.
 void begin(const LineScanner& scanner, TextHeading& heading, Numbers& numbers) {
   numbers.columns = scanner.tokens().size();
   if (numbers.columns < 3) scanner.refuse("three coordinates expected");
@@ -49,7 +49,7 @@ Numbers readNumbers(LineScanner& scanner, TextHeading& heading) {
   while (scanner.next()) {
     const auto& tokens = scanner.tokens();
     const bool is_complete = announced && static_cast<std::uint64_t>(*announced) <= numbers.rows();
-    // Some writers put the number of points first; a PTS file may hold several scans, each behind its number.
+    // A line of one number is a number of points: before the first row, or in PTS files before each of several scans.
     if (tokens.size() == 1 && (numbers.columns == 0 ? !announced : is_complete)) {
       const std::int64_t count = scanner.integer(0);
       if (count < 0) scanner.refuse("a number of points below zero");
@@ -73,7 +73,7 @@ Numbers readNumbers(LineScanner& scanner, TextHeading& heading) {
   return numbers;
 }
 
-/// Names the columns: as the heading does, as Leica's PTS has them, or by their places.
+/// Names the columns by the heading, by the order in Leica's PTS, or by nameByPlace().
 void name(const std::filesystem::path& path, const TextHeading& heading, Columns& columns) {
   const std::string extension = lower(path.extension().string());
   std::vector<std::string> names = heading.names;
@@ -87,7 +87,7 @@ void name(const std::filesystem::path& path, const TextHeading& heading, Columns
   nameColumns(path, heading.line, columns.fields);
 }
 
-/// Colours that are whole numbers up to 255 become bytes, as in other formats.
+/// Converts colours that are integers up to 255 to bytes, as other formats have them.
 void narrowColors(Columns& columns) {
   const auto isByte = [](double value) { return value >= 0 && value <= 255 && value == std::trunc(value); };
   for (Field& field : columns.fields) {

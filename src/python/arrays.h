@@ -16,15 +16,16 @@
 #include "tufted/solver.h"
 #include "tufted/types.h"
 
-// Between NumPy's arrays and the library's. Matrices of doubles are converted by pybind11/eigen.h: results move into
-// memory that the array owns.
+// Conversions between NumPy's arrays and the library's types. pybind11/eigen.h converts matrices of doubles: results
+// move into memory that the array owns.
 namespace tufted::python {
 
 using Doubles = pybind11::array_t<double, pybind11::array::c_style>;
 using Shape = std::vector<pybind11::ssize_t>;
 using Integers = pybind11::array_t<int, pybind11::array::c_style>;
 
-/// N x 3 numbers of an array, which must outlive the view.
+/// A view of an N x 3 array, which must outlive it.
+/// @throws InvalidInput for another shape
 inline Eigen::Map<const Points> pointsOf(const Doubles& array) {
   if (array.ndim() != 2 || array.shape(1) != 3) throw InvalidInput("points: the shape must be N x 3");
   return {array.data(), array.shape(0), 3};
@@ -39,7 +40,7 @@ inline std::vector<int> indicesOf(const Integers& array) {
   return {array.data(), array.data() + array.size()};
 }
 
-/// An array that shows memory of `owner`, which it keeps alive. Read-only, as solvers were made from it.
+/// An array on memory of `owner`, which it keeps alive. It is read-only, because solvers were made from that memory.
 template <class T>
 pybind11::array_t<T> shown(const T* data, Shape shape, const pybind11::object& owner) {
   pybind11::array_t<T> array(std::move(shape), data, owner);
@@ -47,7 +48,7 @@ pybind11::array_t<T> shown(const T* data, Shape shape, const pybind11::object& o
   return array;
 }
 
-/// An array that owns what is moved into it.
+/// An array that owns the values.
 template <class T>
 pybind11::array_t<T> owned(std::vector<T> values) {
   auto kept = std::make_unique<std::vector<T>>(std::move(values));
@@ -57,14 +58,14 @@ pybind11::array_t<T> owned(std::vector<T> values) {
   return pybind11::array_t<T>(Shape{size}, data, owner);
 }
 
-/// data, indices and indptr of a scipy.sparse.csc_matrix, which show memory of `owner`.
+/// data, indices and indptr for a scipy.sparse.csc_matrix, as read-only arrays on memory of `owner`.
 inline pybind11::tuple shownSparse(const SparseMatrix& matrix, const pybind11::object& owner) {
   return pybind11::make_tuple(shown(matrix.valuePtr(), {matrix.nonZeros()}, owner),
                               shown(matrix.innerIndexPtr(), {matrix.nonZeros()}, owner),
                               shown(matrix.outerIndexPtr(), {matrix.cols() + 1}, owner));
 }
 
-/// data, indices and indptr of a scipy.sparse.csc_matrix, which own what is moved into them.
+/// data, indices and indptr for a scipy.sparse.csc_matrix, as arrays that own the matrix.
 inline pybind11::tuple ownedSparse(SparseMatrix matrix) {
   matrix.makeCompressed();
   auto kept = std::make_unique<SparseMatrix>(std::move(matrix));
@@ -75,8 +76,8 @@ inline pybind11::tuple ownedSparse(SparseMatrix matrix) {
                               pybind11::array_t<int>(Shape{m.cols() + 1}, m.outerIndexPtr(), owner));
 }
 
-/// The value of a choice by its name.
-/// @throws InvalidInput naming the argument and all choices
+/// The value of `choices` that has this name.
+/// @throws InvalidInput naming the argument and all choices, if there is none
 template <class T>
 T chosen(const char* argument, const std::string& name, const std::map<std::string, T>& choices) {
   const auto choice = choices.find(name);
@@ -86,7 +87,7 @@ T chosen(const char* argument, const std::string& name, const std::map<std::stri
   throw InvalidInput(std::string(argument) + " = '" + name + "', must be one of " + all);
 }
 
-/// How systems are solved.
+/// How systems are solved: the members of SolverOptions that the package passes on.
 struct Solving {
   std::string solver = "automatic";
   std::size_t memory_limit = 0;

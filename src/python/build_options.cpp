@@ -14,7 +14,7 @@ FaceOrder orderOf(const char* argument, const py::dict& given) {
                            {{"angle", FaceOrder::angle}, {"area", FaceOrder::area}, {"random", FaceOrder::random}});
 }
 
-/// What clouds and meshes have in common.
+/// Sets the options that clouds and meshes share.
 template <class Options>
 void takeCommon(const py::dict& given, Options& options) {
   options.paper.seed = given["seed"].cast<std::uint64_t>();

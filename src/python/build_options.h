@@ -7,15 +7,15 @@
 
 #include "tufted/options.h"
 
-// Options of a build as the package keeps them: a dict by the names of the arguments of PointCloud and Mesh. Of arrays
-// it holds whether they were given.
+// The package keeps the options of a build as a dict whose keys are the arguments of PointCloud and Mesh. Instead of
+// arrays it holds whether they were given.
 namespace tufted::python {
 
-/// The options of a cloud but those that are borrowed.
-/// @throws InvalidInput for the name of a choice that there is not
+/// The options of a cloud, without the borrowed arrays.
+/// @throws InvalidInput for a name of a preset, gluing, order or delaunay that does not exist
 CloudOptions cloudOptionsOf(const pybind11::dict& given);
 /// The options of a mesh.
-/// @throws InvalidInput for the name of a choice that there is not
+/// @throws InvalidInput for a name of an order that does not exist
 MeshOptions meshOptionsOf(const pybind11::dict& given);
 std::optional<Eigen::Vector3d> viewpointOf(const pybind11::dict& given);
 

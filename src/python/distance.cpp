@@ -34,7 +34,8 @@ DistanceSolver solverOf(const Laplacian& laplacian, const std::string& method, s
   });
 }
 
-/// @param faces, barycentric S rows: sources inside triangles of a mesh, after the points `sources`
+/// The sources of a query: points, then places inside triangles of a mesh.
+/// @param faces, barycentric S rows: triangle and barycentric coordinates of each place
 std::vector<SurfacePoint> placesOf(const Integers& sources, const Doubles& points, const Integers& triangles,
                                    const Integers& faces, const Doubles& barycentric) {
   std::vector<SurfacePoint> places;
@@ -53,7 +54,7 @@ VectorXd query(const DistanceSolver& solver, const std::vector<SurfacePoint>& pl
   return run(progress, [&](const Progress& called) { return solver.queryAt(places, nullptr, called); });
 }
 
-/// N distances, and N numbers of the nearest of the places, -1 where none leads.
+/// N distances, and N indices into `places` of the nearest source, -1 where no path leads.
 py::tuple nearest(const DistanceSolver& solver, const std::vector<SurfacePoint>& places, const py::object& progress) {
   NearestSources found = run(progress, [&](const Progress& called) { return solver.nearest(places, nullptr, called); });
   return py::make_tuple(std::move(found.distance), owned(std::move(found.source)));

@@ -16,7 +16,7 @@ struct Name {
   const char* python;
 };
 
-/// Functions of the library as messages begin with them, and what the caller in Python has called.
+/// Names with which the library's messages begin, and the function that the user of Python called.
 constexpr std::array functions = {
     Name{"pointCloudLaplacian", "PointCloud"},
     Name{"ringStructure", "PointCloud"},
@@ -59,7 +59,7 @@ constexpr std::array functions = {
     Name{"writeLaplacian", "save"},
 };
 
-/// Words of the library's messages, and what they are called in Python.
+/// Words within the library's messages, and their names in Python.
 constexpr std::array words = {
     Name{"pins.points", "pins"},
     Name{"pins.values", "values"},
@@ -73,7 +73,7 @@ constexpr std::array words = {
     Name{"componentMeans", "filter"},
 };
 
-/// A message of the library with the names that the caller in Python knows.
+/// A message of the library with the names of Python.
 std::string inPython(const char* message) {
   std::string text = message;
   const std::size_t colon = text.find(": ");
@@ -90,7 +90,7 @@ std::string inPython(const char* message) {
   return text;
 }
 
-/// The Python classes, which live as long as the interpreter.
+/// Exception classes of Python, which live as long as the interpreter.
 PyObject *invalid_input, *io_error, *file_too_large, *solver_failure, *cancelled;
 
 PyObject* addError(py::module_& module, const char* name, PyObject* base, const char* doc) {
@@ -127,11 +127,11 @@ void addErrors(py::module_& module) {
                       "A file that cannot be read or written. The message names the path and, where known, the line or "
                       "byte.");
   file_too_large = addError(module, "FileTooLarge", io_error,
-                            "A file that may be good, but whose content does not fit into the memory.");
+                            "A file that may be valid but whose content does not fit into memory.");
   solver_failure = addError(module, "SolverFailure", PyExc_RuntimeError,
-                            "A system that could not be solved, though nothing is wrong with the arguments by "
-                            "themselves.");
-  cancelled = addError(module, "Cancelled", PyExc_RuntimeError, "The function `progress` has returned False.");
+                            "A system that could not be solved although the arguments are valid. The message says "
+                            "what to change.");
+  cancelled = addError(module, "Cancelled", PyExc_RuntimeError, "The callback `progress` returned False.");
   py::register_exception_translator(translate);
 }
 

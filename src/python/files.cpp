@@ -1,4 +1,4 @@
-// Files in and out.
+// Reading and writing files.
 #include <pybind11/stl/filesystem.h>
 
 #include <cstdint>
@@ -30,7 +30,7 @@ const char* typeOf(FieldType type) {
   return names[static_cast<int>(type)];
 }
 
-/// The further values of a file, by name; N values each, or N x count.
+/// The fields of a file by name, N values each, or N x count.
 py::dict fieldsOf(const Geometry& geometry) {
   py::dict fields;
   for (const Field& field : geometry.fields) {
@@ -48,13 +48,13 @@ Geometry readFile(const std::filesystem::path& path, const std::string& kind, bo
       run(progress, [&](const Progress& called) { return read(path, as, FileFormat::automatic, called); });
   if (weld && !geometry.is_mesh)
     throw InvalidInput("read: weld = True, must be False for a cloud, whose coincident points are merged in any case");
-  const int caller = 2;  // the line that has called the function of the package
+  const int caller = 2;  // stack level: the line that called the package's function
   for (const std::string& note : geometry.notes)
     if (PyErr_WarnEx(PyExc_UserWarning, note.c_str(), caller) != 0) throw py::error_already_set();
   return geometry;
 }
 
-/// All of a Geometry, for pickle and copies.
+/// The members of a Geometry except `unread_bytes`, for pickle and copies.
 py::tuple stateOf(const Geometry& geometry) {
   py::list fields;
   for (const Field& field : geometry.fields)
@@ -91,8 +91,8 @@ Geometry geometryFrom(const py::tuple& state) {
   return geometry;
 }
 
-/// What save() writes of points that were not read from a file.
-/// @param faces none for a cloud
+/// The Geometry that save() writes if the points were not read from a file.
+/// @param faces F x 3; none for a cloud
 Geometry geometryOf(const Doubles& points, const std::optional<Integers>& faces) {
   Geometry geometry;
   geometry.points = pointsOf(points);
@@ -102,10 +102,10 @@ Geometry geometryOf(const Doubles& points, const std::optional<Integers>& faces)
   return geometry;
 }
 
-/// What the report says about the options of a build.
+/// Sets the options of a build that WriteOptions records in report.json, and owns what they borrow.
 class RecordedOptions {
  public:
-  /// @param options_given a dict of the options, the JSON text of an earlier report, or None: nothing is recorded
+  /// @param options_given a dict of the options, the JSON text of an earlier report, or None to record nothing
   RecordedOptions(const Laplacian& laplacian, const py::object& options_given, WriteOptions& options) {
     if (options_given.is_none()) return;
     if (py::isinstance<py::str>(options_given)) {
@@ -134,7 +134,7 @@ class RecordedOptions {
  private:
   CloudOptions cloud_;
   MeshOptions mesh_;
-  // The report says of normals and neighbourhoods only whether they were given.
+  // Empty: report.json records only whether normals, neighbourhoods and a structure were given.
   Points normals_;
   Neighborhoods neighborhoods_;
   ScanStructure structure_;

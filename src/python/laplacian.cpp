@@ -1,4 +1,4 @@
-// Building L and M, and what is known about each point.
+// Builds of L and M, and their members as arrays.
 #include "tufted/laplacian.h"
 
 #include <optional>
@@ -57,7 +57,8 @@ py::dict dictOf(const Report& report) {
   return dict;
 }
 
-/// L, as its three arrays, and the diagonal of M, taken out of a Laplacian that nobody else uses.
+/// Moves L, as the three arrays of a csc_matrix, and the N masses out of a Laplacian, which is empty afterwards.
+/// @param dummy whether setDummyValues() is applied first
 py::tuple takeMatrices(Laplacian& laplacian, bool dummy) {
   if (dummy) setDummyValues(laplacian.L, laplacian.M, laplacian.status);
   SparseMatrix L;

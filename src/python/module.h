@@ -2,8 +2,8 @@
 
 #include <pybind11/pybind11.h>
 
-// What each file of this folder adds to the module `_tufted`. The package `tufted` checks arguments and gives them the
-// types that these functions take, so only it calls them.
+// Each file of this folder adds its functions to the module `_tufted`. Only the package `tufted` calls them: it checks
+// arguments and converts them to the types that they take.
 namespace tufted::python {
 
 void addErrors(pybind11::module_& module);

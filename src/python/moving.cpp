@@ -1,4 +1,4 @@
-// New places of the points: in the plane, on minimal surfaces, beside handles, smoothed, out of the noise.
+// New positions of the points: parameterisation, minimal surfaces, deformation, smoothing, denoising.
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,7 +34,7 @@ SmoothingSolver smoothingSolver(const Laplacian& laplacian, double time_step, co
   });
 }
 
-/// What smooth() and smooth_values() take.
+/// Options of smooth() and smooth_values(), with the arrays that they borrow.
 struct Smoothing {
   SmoothingOptions options;
   std::optional<std::vector<std::uint8_t>> fixed;

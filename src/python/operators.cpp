@@ -13,7 +13,8 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-/// @param frames normals and tangents of the planes; none: planes are fitted, which needs those of a cloud
+/// Calls gradients().
+/// @param frames normals and tangents of the planes; none: planes are fitted, which needs the frames of a cloud
 Gradients gradientsOf(const Laplacian& laplacian, const Doubles& points,
                       const std::optional<std::pair<Points, Points>>& frames, const std::optional<int>& neighbors,
                       double regularization, int threads, const py::object& progress) {

@@ -1,5 +1,5 @@
-// A Laplacian as a dict of arrays and back, for pickle. The cover goes with it, as it cannot be built without the
-// stars.
+// Converts a Laplacian to a dict of arrays and back, for pickle. The dict includes the cover, which could not be built
+// later because the stars are not stored.
 #include <cstring>
 #include <utility>
 

@@ -5,7 +5,8 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-/// How often Python is asked at most: waiting for its lock takes as long as another thread of the program holds it.
+/// Least time between two checks for Ctrl-C and calls of `progress`, except at a new stage. Each needs Python's lock,
+/// for which it may wait as long as another thread holds it.
 constexpr std::chrono::milliseconds pause(50);
 
 }  // namespace

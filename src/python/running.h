@@ -12,19 +12,18 @@
 
 namespace tufted::python {
 
-/// Between steps of a computation, looks whether Ctrl-C was pressed, and calls the caller's `progress`.
+/// Checks between the steps of a computation whether Ctrl-C was pressed, and calls the caller's `progress`.
 class Watcher {
  public:
-  /// @param callable called with stage and fraction; None: nothing is called. It stops the computation by returning
-  /// False or by raising.
+  /// @param callable called with stage and fraction, or None; stops the computation by returning False or by raising
   explicit Watcher(pybind11::object callable) : callable_(std::move(callable)) {}
 
-  /// To be handed to the library; borrows the watcher.
+  /// A callback for the library, which borrows the watcher.
   Progress progress() {
     return [this](std::string_view stage, double fraction) { return mayGoOn(stage, fraction); };
   }
 
-  /// Throws what Python raised in between, if anything.
+  /// Throws the exception that Python raised during the computation, if any.
   void rethrow() const {
     if (raised_) std::rethrow_exception(raised_);
   }
@@ -38,9 +37,11 @@ class Watcher {
   std::exception_ptr raised_;
 };
 
-/// Runs a computation without holding Python's lock, so that other threads of the program go on.
+/// Runs a computation without holding Python's lock, so that other threads of the program can run.
 /// @param progress the caller's `progress`, or None
-/// @param compute takes a Progress; must not touch Python's objects
+/// @param compute takes a Progress; must not touch objects of Python
+/// @return what `compute` returns
+/// @throws what `progress` or Ctrl-C raised, or what `compute` throws
 template <class Compute>
 auto run(const pybind11::object& progress, const Compute& compute) {
   Watcher watcher(progress);

@@ -1,4 +1,4 @@
-// What a surface is like: normals, curvature, triangles, segments.
+// Normals, curvature, triangles and segments of a surface.
 #include <optional>
 #include <string>
 #include <utility>

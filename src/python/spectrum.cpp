@@ -1,4 +1,4 @@
-// Eigenpairs, and what is made of a few of them.
+// Eigenpairs, and signatures, embeddings and filters from them.
 #include "tufted/spectrum.h"
 
 #include <string>
@@ -28,7 +28,7 @@ Spectrum spectrumOf(const Laplacian& laplacian, int k, bool null_space, double t
   });
 }
 
-/// Filters signals without what is constant on a component, which is kept.
+/// Filters what signals have beside their means over components, and adds the means unfiltered.
 Eigen::MatrixXd filtered(const Laplacian& laplacian, const Spectrum& spectrum, const Eigen::MatrixXd& signals,
                          const py::object& gain) {
   std::function<double(double)> factor;
@@ -43,7 +43,7 @@ Eigen::MatrixXd filtered(const Laplacian& laplacian, const Spectrum& spectrum, c
   return means + filterSignals(laplacian, spectrum, signals - means, factor);
 }
 
-/// A spectrum that Python holds as two arrays.
+/// A spectrum from the two arrays in which Python holds it.
 Spectrum pairsFrom(VectorXd values, Eigen::MatrixXd vectors) {
   if (values.size() != vectors.cols())
     throw InvalidInput("spectrum: has " + std::to_string(values.size()) + " values and " +

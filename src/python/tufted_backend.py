@@ -1,5 +1,6 @@
-"""Builds the wheel for pip (PEP 517): configures the project with CMake, builds the module and packs what it needs. In
-the tree, as Debian and Ubuntu have no backend that runs CMake."""
+"""Builds the wheel for pip (PEP 517): configures the project with CMake, builds the module and packs what it needs.
+It lies in the source tree because Debian and Ubuntu have no package of a backend that runs CMake.
+"""
 import base64
 import hashlib
 import os

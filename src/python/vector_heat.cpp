@@ -11,7 +11,8 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-/// @returns Make(options), made without Python's lock
+/// Calls make(VectorHeatOptions) without holding Python's lock.
+/// @return what it returns
 template <class Make>
 auto madeWith(double time_step, const Solving& solving, const py::object& progress, const Make& make) {
   return run(progress, [&](const Progress& called) {

@@ -1,4 +1,4 @@
-// Pages to look at points with values.
+// Pages that show points with values.
 #include <map>
 #include <string>
 #include <tuple>
@@ -14,7 +14,7 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-/// Name, kind, values, unit, names of labels, and what it means to have no value.
+/// Members of a SceneField: name, kind, values, unit, label_names and no_value.
 using FieldTuple =
     std::tuple<std::string, std::string, Eigen::MatrixXd, std::string, std::vector<std::string>, std::string>;
 

@@ -9,14 +9,14 @@ namespace tufted::view {
 
 namespace {
 
-/// Arrows in the height of the picture; more run into each other.
+/// Cells, each with at most one arrow, in the height of a picture; with more of them arrows would touch.
 constexpr int cells = 34;
-/// The length of an arrow of the greatest length of the legend, in cells: it does not reach the next cell.
+/// The arrow of a vector as long as the legend's greatest value, in cells: it does not reach the next cell.
 constexpr double longest = 0.95;
-/// Shorter arrows, in cells, have no direction to the eye and are not drawn.
+/// Arrows shorter than this, in cells, are not drawn, as their direction would not be visible.
 constexpr double shortest = 0.12;
 
-/// The nearest seen point to the middle of a cell; -1: none.
+/// The visible point nearest to the middle of a cell; -1: none.
 int pointIn(const SeenScene& seen, const FieldColors& colors, int left, int top, int size) {
   int best = -1;
   int least = size * size;

@@ -6,7 +6,7 @@
 
 namespace tufted::view {
 
-/// Draws the vectors of a field as arrows: of the points that are seen one in each cell of a grid on the screen.
+/// Draws the vectors of a field as arrows, at one visible point in each cell of a grid on the screen.
 void drawArrows(const SeenScene& seen, const FieldColors& colors, Canvas& canvas);
 
 }  // namespace tufted::view

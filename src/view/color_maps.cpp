@@ -9,7 +9,7 @@ namespace tufted {
 
 namespace {
 
-/// Colours of a map: more cannot be told apart in 8 bits.
+/// Number of colours of a map: more would be equal in 8 bits.
 constexpr int table_size = 256;
 
 // Control points as 0xRRGGBB, evenly spaced. Between them colours are interpolated in Oklab.
@@ -23,7 +23,7 @@ constexpr std::array<std::uint32_t, 16> magma = {0x000004, 0x0b0924, 0x20114b, 0
                                                  0x8c2981, 0xa8327d, 0xc43c75, 0xde4968, 0xf1605d, 0xfa7f5e,
                                                  0xfe9f6d, 0xfebf84, 0xfddea0, 0xfcfdbf};
 /// Every seventeenth colour of cividis (Nunez, Anderton and Renslow 2018, "Optimizing colormaps with consideration for
-/// color vision deficiency", CC0), which looks the same to those who do not tell red from green.
+/// color vision deficiency", CC0), made to look the same with red-green colour blindness.
 constexpr std::array<std::uint32_t, 16> cividis = {0x00224e, 0x002e6c, 0x1e3a6f, 0x35456c, 0x47516c, 0x575d6d,
                                                    0x666970, 0x757575, 0x848279, 0x948e77, 0xa59c74, 0xb7a96e,
                                                    0xc8b866, 0xdbc75a, 0xeed649, 0xfee838};
@@ -32,12 +32,12 @@ constexpr std::array<std::uint32_t, 16> cividis = {0x00224e, 0x002e6c, 0x1e3a6f,
 constexpr std::array<std::uint32_t, 17> coolwarm = {0x3b4cc0, 0x4e68d7, 0x6282ea, 0x779af7, 0x8db0fe, 0xa3c2ff,
                                                     0xb8d0f9, 0xccd9ee, 0xdddddd, 0xecd3c6, 0xf5c4ad, 0xf7b194,
                                                     0xf49a7b, 0xec7f63, 0xde614c, 0xcb3e38, 0xb40426};
-/// Our own: the hues 315 and 150 degrees of Oklab, whose lightness falls evenly from the middle to both ends.
+/// Our own: hues of 315 and 150 degrees in Oklab, with lightness that falls evenly from the middle to both ends.
 constexpr std::array<std::uint32_t, 17> purple_green = {0x56246a, 0x6e3585, 0x86499f, 0x9c60b6, 0xb17bc8, 0xc397d7,
                                                         0xd4b5e3, 0xe4d4ec, 0xf3f3f3, 0xcee0d1, 0xaacdb0, 0x88b991,
                                                         0x67a474, 0x4a8f5b, 0x307944, 0x1c6232, 0x0a4c22};
-/// Our own: six to begin with, and then always the colour that is farthest in Oklab from all before it, from white,
-/// from black and from the grey of what has no value.
+/// Our own: six chosen colours, then each time the colour farthest in Oklab from all before it, from white, from black
+/// and from no_value_color.
 constexpr std::array<std::uint32_t, 20> labels = {0x306fc8, 0xf08a24, 0x2e9e4f, 0xcc333f, 0x8e5bc0, 0x8a5a44, 0xffa6f9,
                                                   0x00e6e6, 0xc6df59, 0x006059, 0x861360, 0x80b3ff, 0xff8093, 0x998600,
                                                   0x4d4679, 0xffbfa6, 0x00a6b9, 0xbf5393, 0x006600, 0x4dd98c};
@@ -47,7 +47,7 @@ Rgb unpack(std::uint32_t color) {
   return {byte(16), byte(8), byte(0)};
 }
 
-/// The curve of sRGB (IEC 61966-2-1) that takes its values, from 0 to 1, to light.
+/// Converts a value of sRGB in [0, 1] to linear light (IEC 61966-2-1).
 double toLight(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
@@ -56,14 +56,14 @@ double fromLight(double light) {
   return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
 }
 
-/// The value between b and c of the spline of Catmull and Rom (1974) through four values at even steps.
+/// The Catmull-Rom spline (1974) through four evenly spaced values, at `share` of the way from b to c.
 double spline(double a, double b, double c, double d, double share) {
   return b + 0.5 * share * (c - a + share * (2 * a - 5 * b + 4 * c - d + share * (3 * (b - c) + d - a)));
 }
 
 template <std::size_t Count>
 ColorMap interpolated(const char* name, MapUse use, const std::array<std::uint32_t, Count>& control_points) {
-  std::array<std::array<double, 3>, Count + 2> lab;  // with one more at each end, straight on
+  std::array<std::array<double, 3>, Count + 2> lab;  // extrapolated linearly by one at each end
   for (std::size_t i = 0; i < Count; ++i) lab[i + 1] = toOklab(unpack(control_points[i]));
   for (int k = 0; k < 3; ++k) {
     lab[0][k] = 2 * lab[1][k] - lab[2][k];

@@ -14,11 +14,11 @@ namespace tufted::view {
 
 namespace {
 
-/// Isolines in the range of the values, about.
+/// About how many isolines the range of values has.
 constexpr int isoline_count = 16;
-/// Lines of coordinates on each side of the origin, about.
+/// About how many grid lines of coordinates lie on each side of the origin.
 constexpr int grid_count = 10;
-/// Shares of outliers end here, so that sums of them are floats.
+/// Shares of outliers are clamped to this, so that sums of floats do not overflow.
 constexpr double farthest_share = 1e30;
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -28,7 +28,7 @@ constexpr double farthest_share = 1e30;
 }  // namespace
 
 float FieldColors::shareOf(double value) const {
-  const double half_span = high / 2 - low / 2;  // halves, as a difference may overflow
+  const double half_span = high / 2 - low / 2;  // halves, because high - low may overflow
   const double share = half_span > 0 ? (value / 2 - low / 2) / half_span : 0.5;
   return static_cast<float>(std::clamp(share, -farthest_share, farthest_share));
 }

@@ -10,31 +10,32 @@ namespace tufted::view {
 
 /// How the values of a field become colours.
 struct FieldColors {
-  const SceneField* field = nullptr;  ///< null: none, all is grey
-  int column = 0;                     ///< of the field
-  const ColorMap* map = nullptr;      ///< null for colours
-  double low = 0, high = 1;           ///< the values at the ends of the map
+  const SceneField* field = nullptr;  ///< the field shown; null: none, everything is grey
+  int column = 0;                     ///< column of the field
+  const ColorMap* map = nullptr;      ///< null for FieldKind::color
+  double low = 0, high = 1;           ///< values at the ends of the map
   bool is_logarithmic = false;        ///< whether values are shown as their logarithms to base 10
-  bool lacks_values = false;          ///< whether some are not finite
-  double step = 0;                    ///< from isoline to isoline; 0: there are none
-  /// N for each channel: what is drawn, one number or, for coordinates, two, as shares of the map: 0 at `low` and 1 at
-  /// `high`. Floats, which blend, have the digits for these whatever the values. NaN where there is no value.
+  bool lacks_values = false;          ///< whether some points have no value
+  double step = 0;                    ///< difference of neighbouring isolines; 0: no isolines
+  /// One channel, or two for coordinates, of N values each, as shares: 0 at `low`, 1 at `high`, NaN without a value.
+  /// Floats are blended, and shares need few digits whatever the values.
   std::vector<std::vector<float>> channels;
 
   /// The share of a value.
   float shareOf(double value) const;
-  /// The share from isoline to isoline; 0: there are none.
+  /// `step` as a share; 0: no isolines.
   double shareOfStep() const;
-  /// The number of the isoline below a share, counted from a whole one near `low`.
+  /// The number of the isoline at or below a share, counted from one near `low`.
   double levelOf(float share) const;
-  /// The colour of the shares of all channels.
+  /// The colour for the shares of all channels.
   Rgb colorOf(const std::array<float, 2>& shares) const;
-  /// The colour of a point whose values are not blended: labels, colours.
+  /// The colour of a point whose values cannot be blended: labels and colours.
   Rgb colorOfPoint(int point) const;
   bool isBlended() const { return field != nullptr && !channels.empty(); }
 };
 
-/// @throws InvalidInput for a field or column that there is not, a map or a range that does not fit
+/// Chooses colours by the options.
+/// @throws InvalidInput for a field, column or map that does not exist, or a range that does not ascend
 FieldColors colorsOf(const Scene& scene, const PictureOptions& options);
 
 }  // namespace tufted::view

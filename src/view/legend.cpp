@@ -16,23 +16,22 @@ namespace tufted::view {
 
 namespace {
 
-/// Pixels below which a picture has no room for words.
+/// A picture of fewer pixels in width or height has no title or legend.
 constexpr int least_width = 240;
-/// Pixels below which a picture has no room for words.
 constexpr int least_height = 160;
-/// Labels that are named: the map has no more colours.
+/// Most labels that a legend lists: the map has no more colours.
 constexpr std::size_t most_swatches = 20;
-/// The width of the legend, in sizes of its letters: the bar and numbers of seven characters.
+/// The width of the legend, in letter sizes: the bar and numbers of seven characters.
 constexpr double legend_width = 9;
-/// The width of the legend's bar and the height of its lines, in sizes of its letters.
+/// The width of the legend's bar and the height of its lines, in letter sizes.
 constexpr double bar_width = 1.3;
 constexpr double line_height = 1.4;
-/// Texts that are too long have letters that are smaller by this factor at most.
+/// The letters of a text that is too long are made smaller by at most this factor.
 constexpr double smallest_letters = 0.7;
-/// The share of the width that such a text takes: sizes of letters are rounded to a 64th of a pixel.
+/// Such a text fills this share of the width, because letter sizes are rounded to a 64th of a pixel.
 constexpr double fitted_share = 0.99;
 
-/// Labels that occur, ascending; one more than are shown if there are more.
+/// The labels that occur, ascending, up to one more than the legend lists.
 std::set<long long> labelsIn(const SceneField& field, int column) {
   std::set<long long> labels;
   for (Eigen::Index i = 0; i < field.values.rows(); ++i) {
@@ -52,7 +51,7 @@ std::string headingOf(const FieldColors& colors, const PictureOptions& options) 
   return text;
 }
 
-/// Writes a text into a width: in smaller letters where it is too long, and shortened where these are too small.
+/// Writes a text into a width: in smaller letters if it is too long, and shortened if that does not suffice.
 void writeWithin(const std::string& text, double x, double y, double size, double width, const Rgb& ink,
                  Canvas& canvas) {
   const double wanted = canvas.widthOf(text, size);
@@ -60,7 +59,7 @@ void writeWithin(const std::string& text, double x, double y, double size, doubl
   canvas.text(canvas.shorten(text, size, width), x, y, size, ink);
 }
 
-/// A heading in one line, or in two where it is too long and has words.
+/// Splits a heading that is too long into two lines after a word, if one fits.
 std::vector<std::string> linesOf(const std::string& heading, double size, double width, Canvas& canvas) {
   if (canvas.widthOf(heading, size) <= width) return {heading};
   std::size_t best = 0;

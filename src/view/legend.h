@@ -7,11 +7,11 @@
 
 namespace tufted::view {
 
-/// Where title, scene and legend are, in pixels.
+/// Places of title, scene and legend in a picture, in pixels.
 struct Layout {
   double text_size = 0;
-  int top = 0;    ///< the scene begins below
-  int right = 0;  ///< and ends before
+  int top = 0;    ///< first row of the scene
+  int right = 0;  ///< column at which the scene ends
   bool has_legend = false;
 };
 

@@ -24,11 +24,11 @@ using view::LabelColumn;
 using view::LevelColumn;
 using view::PageBlocks;
 
-/// Sizes of discs to a factor of two: 19 % apart, which takes nearly half a byte per point.
+/// Stored radii per factor of two: they are 19 % apart, and take nearly half a byte per point.
 constexpr double radius_steps = 4;
-/// The byte of the size of the lower quartile: the middle, so that discs may be smaller or larger.
+/// The byte that stands for the lower quartile of the radii: the middle of all bytes.
 constexpr std::uint8_t radius_middle = 128;
-/// Pages are as large as their window; the direction of the eye does not depend on it.
+/// Any viewport: only the direction of the eye is used, which does not depend on its size.
 constexpr view::Viewport some_viewport = {.left = 0, .right = 800, .top = 0, .bottom = 600};
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -98,7 +98,7 @@ Json labelColumn(const Eigen::Ref<const Eigen::VectorXd>& values, PageBlocks& bl
   return {{"names", blocks.add(column.names)}, {"indices", blocks.add(column.indices)}};
 }
 
-/// Red, green, blue and 255, or four zeros where one of them is not finite, in one integer each.
+/// A column of integers, each with the bytes red, green, blue and 255, or 0 if a value is not finite.
 Json colorColumn(const Eigen::MatrixXd& values, PageBlocks& blocks) {
   std::vector<std::uint32_t> colors(static_cast<std::size_t>(values.rows()));
   for (Eigen::Index row = 0; row < values.rows(); ++row) {
@@ -116,8 +116,7 @@ Json rangesJson(const view::ValueRanges& ranges) {
   return {{"usual", json(ranges.usual)}, {"all", json(ranges.all)}, {"middle", json(ranges.middle)}};
 }
 
-/// A column of values as they are shown, with the ranges that their colours may have; of vectors and coordinates the
-/// field has these.
+/// A column of values as shown, with the ranges of its colour map; those of vectors and coordinates are in fieldJson().
 Json valueColumn(const SceneField& field, int column, PageBlocks& blocks) {
   if (showsAllColumns(field.kind)) return levelColumn(field.values.col(column), blocks);
   const Eigen::VectorXd values = view::shownValues(field, column);
@@ -143,7 +142,7 @@ Json fieldJson(const SceneField& field, PageBlocks& blocks) {
   return json;
 }
 
-/// The radius of the disc of each point, in steps of a factor from the lower quartile, as radii are rather too large.
+/// The radius of each point's disc, as a byte relative to the lower quartile, see `radius_steps`.
 Json radiusJson(const Scene& scene, const view::NormalizedPoints& points, PageBlocks& blocks) {
   const std::vector<float> radii = view::discsOf(scene, points, 0).radii;
   std::vector<float> sorted;
@@ -178,7 +177,7 @@ Json mapsJson() {
   return maps;
 }
 
-/// The scene but for its blocks of numbers, which are added to `blocks`.
+/// The scene as JSON, which refers to the blocks of numbers that are added to `blocks`.
 Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& blocks) {
   const view::NormalizedPoints points = view::normalize(scene, 0);
   const view::Projection seen = view::project(points, options.camera, some_viewport);
@@ -198,7 +197,7 @@ Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& block
                  {"up", {seen.up.x(), seen.up.y(), seen.up.z()}},
                  {"zoom", options.camera.zoom}}}};
   for (int axis = 0; axis < 3; ++axis) {
-    Eigen::VectorXd coordinates;  // of no points a column would be an offset to nothing
+    Eigen::VectorXd coordinates;  // stays empty without points, when there is no column to map
     if (scene.positions.rows() > 0) coordinates = scene.positions.col(axis);
     json["positions"].push_back(levelColumn(coordinates, blocks));
   }
@@ -213,7 +212,7 @@ Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& block
   return json;
 }
 
-/// JSON that may stand inside of an element of HTML: `<` only occurs in texts, where \u003c means the same.
+/// JSON for an element of HTML: `<`, which occurs only in strings, is written as \u003c.
 std::string jsonInHtml(const Json& json) {
   const std::string plain = json.dump(-1, ' ', true, Json::error_handler_t::replace);
   std::string text;

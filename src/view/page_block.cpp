@@ -10,7 +10,7 @@ namespace tufted::view {
 
 namespace {
 
-/// The bytes of integers, all lowest ones first, then the next ones: bytes of one weight are alike and deflate well.
+/// The bytes of integers: first the lowest byte of each, then the next, because bytes of one weight deflate well.
 template <typename Integer>
 std::vector<std::uint8_t> bytePlanes(const std::vector<Integer>& values) {
   std::vector<std::uint8_t> planes(values.size() * sizeof(Integer));
@@ -20,7 +20,7 @@ std::vector<std::uint8_t> bytePlanes(const std::vector<Integer>& values) {
   return planes;
 }
 
-/// Differences to the value before, modulo the size of the integers.
+/// Differences from the value before, modulo 2 to the power of the integers' bits.
 template <typename Integer>
 std::vector<Integer> differences(std::vector<Integer> values) {
   for (std::size_t i = values.size(); i > 1; --i) values[i - 1] = static_cast<Integer>(values[i - 1] - values[i - 2]);
@@ -50,7 +50,7 @@ int PageBlocks::add(const std::vector<double>& values) {
 int PageBlocks::addBytes(const std::vector<std::uint8_t>& bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string packed(size, '\0');
-  // It fails for want of memory alone, as the bound is kept.
+  // The buffer is large enough, so it fails only if memory does not suffice.
   if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, bytes.data(), static_cast<uLong>(bytes.size()),
                 Z_DEFAULT_COMPRESSION) != Z_OK)
     throw std::bad_alloc();

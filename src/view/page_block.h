@@ -7,16 +7,16 @@
 
 namespace tufted::view {
 
-/// Blocks of numbers for a page, one element of HTML each: deflated and in base64. The type of the element is none that
-/// a browser runs.
+/// Collects blocks of numbers for a page, each in an HTML element of a type that browsers do not run: deflated, in
+/// base64.
 class PageBlocks {
  public:
-  /// Adds integers, as differences to the one before: those of neighbouring points are small.
-  /// @returns the number of the block, from 0 on, which names its element
+  /// Adds integers, stored as differences from the one before, which are small for neighbouring points.
+  /// @return the number of the block, counted from 0, by which its element is named
   int add(const std::vector<std::uint8_t>& values);
   int add(const std::vector<std::uint16_t>& values);
   int add(const std::vector<std::uint32_t>& values);
-  /// Adds numbers bit for bit.
+  /// Adds numbers, stored bit for bit.
   int add(const std::vector<double>& values);
 
   /// The elements of all blocks.
@@ -29,7 +29,7 @@ class PageBlocks {
   int count_ = 0;
 };
 
-/// Bytes in base64, RFC 4648.
+/// Encodes bytes in base64 (RFC 4648).
 std::string base64(std::string_view bytes);
 
 }  // namespace tufted::view

@@ -9,14 +9,14 @@ namespace {
 
 /// The greatest level.
 constexpr double top_level = no_level - 1;
-/// Values farther beyond the outer percentiles than this many of their distances are stored whole, as their levels
-/// would take the digits of the others. All of an evenly or normally spread column lie within.
+/// Values beyond the outer percentiles by more than this many times their distance are stored in full, because levels
+/// for them would cost the others digits. Uniformly or normally distributed values have none.
 constexpr double level_reach = 6;
-/// One of this many values lies below the lower percentile, and one above the upper, so that few outliers do not move
+/// One in this many values lies below the lower percentile and one above the upper, so that a few outliers do not move
 /// them.
 constexpr std::size_t percentile_share = 100;
 
-/// The 1st and the 99th percentile. Changes the order of the values, of which there is at least one.
+/// The 1st and the 99th percentile of at least one value. Reorders the values.
 std::pair<double, double> outerPercentiles(std::vector<double>& values) {
   const std::size_t rank = values.size() / percentile_share;
   const auto low = values.begin() + static_cast<std::ptrdiff_t>(rank);
@@ -43,7 +43,7 @@ LevelColumn levelsOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
   column.minimum = *minimum;
   column.maximum = *maximum;
   std::tie(column.low, column.high) = outerPercentiles(finite);
-  // Halves, as a difference of two doubles may overflow. An infinite bound does no harm.
+  // Halves, because a difference may overflow. An infinite `reach` does no harm.
   const double reach = 2 * level_reach * (column.high / 2 - column.low / 2);
   column.least = std::max(column.minimum, column.low - reach);
   const double greatest = std::min(column.maximum, column.high + reach);
@@ -78,10 +78,10 @@ LabelColumn labelsOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
 }
 
 void octahedralBytes(const Eigen::Vector3d& direction, std::uint8_t bytes[2]) {
-  // Steps of a byte to either side of 0: a normal is off by less than a degree, which light does not show.
+  // Steps from 0 to 1: normals are off by less than a degree, which shading does not show.
   constexpr double steps = 127;
   bytes[0] = bytes[1] = 0;
-  const double largest = direction.cwiseAbs().maxCoeff();  // taken out first, as a sum may overflow
+  const double largest = direction.cwiseAbs().maxCoeff();  // divided out first, because a sum may overflow
   if (!direction.allFinite() || !(largest > 0)) return;
   const Eigen::Vector3d unit = direction / largest;
   Eigen::Array2d p = unit.head<2>().array() / unit.cwiseAbs().sum();

@@ -14,35 +14,35 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// The width of the line, in letter sizes: five pixels of 900, wider than an isoline.
+/// The width of the line, in letter sizes: five pixels if the picture has 900, wider than an isoline.
 constexpr double line_width = 0.24;
 /// The width of the line with its rim, in letter sizes: two pixels more on each side.
 constexpr double rim_width = 0.46;
-/// The width of dashes, in letter sizes: thinner than the line, as it lies farther away.
+/// The width of dashes, in letter sizes: thinner than the line, as for something farther away.
 constexpr double dash_width = 0.14;
 /// The length of dashes and of the gaps between them, in letter sizes: three widths.
 constexpr double dash_length = 0.45;
-/// The circles of the ends, in letter sizes: three times as wide as the line.
+/// The diameter of the discs at the ends, in letter sizes: three times the width of the line.
 constexpr double end_width = 0.75;
-/// The circles of the ends with their rims, in letter sizes.
+/// The diameter of the discs at the ends with their rims, in letter sizes.
 constexpr double end_rim_width = 1;
-/// The hole of a ring: half of the circle.
+/// The diameter of the hole of the ring, in letter sizes: half of the disc.
 constexpr double ring_hole = 0.35;
-/// A path so far behind a triangle, in its longest side, still lies on it: paths run straight between edges of the
-/// cover, and these need not be the mesh's.
+/// A path behind a triangle by up to this share of its longest side still counts as on it: paths run straight between
+/// edges of the cover, which need not be those of the mesh.
 constexpr double sunk_share = 0.05;
-/// Pixels from the picture beyond which nothing is drawn: integers hold them.
+/// Coordinates in pixels are clamped to this, so that they fit into integers.
 constexpr double farthest = 1e6;
 
-/// A place of the path on the picture.
+/// A place of the path in the picture.
 struct Step {
   Vector2d place;
   bool is_hidden = false;
-  bool is_joined = false;  ///< to the step before
-  double length = 0;       ///< from the beginning, in pixels
+  bool is_joined = false;  ///< whether a line leads to it from the step before
+  double length = 0;       ///< length from the beginning, in pixels
 };
 
-/// How far behind what is seen at a sample the path may lie: by the radius of a disc, which stands forward.
+/// How far behind a disc or triangle a path counts as on it: by a disc's radius, because its middle bulges to the eye.
 double toleranceAt(const SeenScene& seen, std::uint32_t number) {
   const auto n = static_cast<std::uint32_t>(seen.scene.positions.rows());
   if (number < n) return seen.radii[number];
@@ -67,9 +67,9 @@ Vector2d placeOf(const SeenScene& seen, const Vector3d& view) {
   return (place / samples_per_pixel).cwiseMax(-farthest).cwiseMin(farthest);
 }
 
-/// The path in steps of about a pixel, without what is not finite or too near to the eye.
+/// The path in steps of about a pixel, without corners that are not finite or too near to the eye.
 std::vector<Step> stepsOf(const SeenScene& seen) {
-  const int most_steps = seen.width + seen.height;  // of one part; longer ones leave the picture
+  const int most_steps = seen.width + seen.height;  // per segment; longer segments leave the picture
   std::vector<Step> steps;
   Vector3d before = Vector3d::Zero();
   bool is_joined = false;

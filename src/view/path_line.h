@@ -6,13 +6,13 @@
 
 namespace tufted::view {
 
-/// Red, which the sequential maps do not have in this strength.
+/// The colour of the path: a red that is stronger than any in the sequential maps.
 constexpr Rgb path_color = {214, 30, 40};
-/// White around the red, which tells it from reds and from dark colours.
+/// The colour of the rim along the path: white, which separates it from reds and from dark colours.
 constexpr Rgb path_rim_color = {255, 255, 255};
 
-/// Draws the path of a scene, dashed where the surface hides it; the beginning is a ring, the end a full circle.
-/// @param text_size of the picture's letters in pixels, by which lines are wide
+/// Draws the path of a scene, dashed where the surface hides it, with a ring at its beginning and a disc at its end.
+/// @param text_size size of the picture's letters in pixels, to which widths are proportional
 void drawPath(const SeenScene& seen, double text_size, Canvas& canvas);
 
 }  // namespace tufted::view

@@ -6,8 +6,9 @@
 
 namespace tufted::view {
 
-/// The value that a share of all values is below, the nearest of them; `values` are put into another order.
-/// @param values at least one
+/// The value below which a share of all values lies, rounded to one of them.
+/// @param values at least one; they are reordered
+/// @param share in [0, 1]
 inline double percentile(std::vector<double>& values, double share) {
   const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());

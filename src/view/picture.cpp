@@ -17,9 +17,9 @@ namespace tufted {
 
 namespace {
 
-/// Pixels of a picture at least, each way.
+/// Least width and height of a picture in pixels.
 constexpr int least_size = 16;
-/// Pixels of a picture at most, each way: the samples of the largest take 7 GB.
+/// Greatest width and height of a picture in pixels: the largest takes 7 GB for its samples.
 constexpr int most_size = 8192;
 
 void checkSize(const char* name, int size) {

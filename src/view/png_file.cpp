@@ -9,7 +9,7 @@ namespace tufted::view {
 
 namespace {
 
-/// libpng must not return from an error.
+/// Called by libpng for an error; must not return.
 [[noreturn]] void fail(png_structp /*png*/, png_const_charp message) {
   throw std::runtime_error(std::string("writePicture: libpng: ") + message);
 }
@@ -18,7 +18,7 @@ void append(png_structp png, png_bytep bytes, std::size_t size) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), size);
 }
 
-/// The state of libpng, freed at the end.
+/// Owns the state of libpng.
 struct Writer {
   png_structp png = nullptr;
   png_infop info = nullptr;
@@ -39,8 +39,7 @@ struct Writer {
 }  // namespace
 
 std::string pngOf(const Picture& picture) {
-  // A fast level, as higher ones take longer than drawing and save a few percent; of the filters the one that suits
-  // smooth shades.
+  // Higher levels take longer than drawing and save a few percent.
   constexpr int level = 5;
   bool is_opaque = true;
   for (std::size_t i = 3; i < picture.pixels.size(); i += 4) is_opaque = is_opaque && picture.pixels[i] == 255;

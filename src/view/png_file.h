@@ -7,7 +7,7 @@
 
 namespace tufted::view {
 
-/// A picture as a file of PNG: red, green and blue, and alpha where a pixel is not opaque.
+/// The bytes of a PNG file: red, green and blue, and alpha if some pixel is not opaque.
 std::string pngOf(const Picture& picture);
 
 }  // namespace tufted::view

@@ -17,26 +17,27 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The share of the picture that the scene fills: discs reach beyond their points.
+/// The points fill this share of the viewport, because discs reach beyond them.
 constexpr double fill = 0.93;
-/// Points that a camera is chosen by, at most.
+/// Most points from which a camera is chosen.
 constexpr int most_samples = 100000;
-/// Half the angle of view upwards, in radians: that of a photograph of 50 mm or so, without distortion at the edges.
+/// Half the vertical angle of view, in radians: that of a lens of about 50 mm, without distortion at the edges.
 constexpr double half_angle = 0.31;
-/// How much farther than the 1st and 99th percentile the scene reaches, in their distance; farther points are few.
+/// Points beyond the 1st or the 99th percentile by more than this share of their distance are not fitted into the
+/// picture.
 constexpr double reach = 0.25;
-/// The share of the least variance in the middle one below which a scene is flat, such as a terrain or a room seen from
-/// one side.
+/// A scene whose least variance is below this share of the middle one is flat, such as a terrain, or a room scanned
+/// from one side.
 constexpr double flatness = 0.12;
-/// The share of the middle variance in the greatest one below which a scene is a line, thinner than a hundredth of its
-/// length, which no view along it shows.
+/// A scene whose middle variance is below this share of the greatest one is a line, thinner than a hundredth of its
+/// length, and is not viewed along it.
 constexpr double slenderness = 1e-4;
 
 struct Box {
   Vector3d low = Vector3d::Zero(), high = Vector3d::Zero();
 };
 
-/// The box of most points: percentiles, and a bit more where there are points.
+/// The box of most points: as far as they extend, but beyond the percentiles by at most `reach`.
 Box robustBox(const Points& positions, const std::vector<int>& numbers) {
   Box box;
   std::vector<double> values(numbers.size());
@@ -53,7 +54,7 @@ Box robustBox(const Points& positions, const std::vector<int>& numbers) {
   return box;
 }
 
-/// Evenly chosen ones of the points.
+/// At most `most_samples` of the points, evenly chosen.
 std::vector<int> someOf(const std::vector<int>& numbers) {
   const std::size_t step = numbers.size() / most_samples + 1;
   std::vector<int> some;
@@ -61,7 +62,7 @@ std::vector<int> someOf(const std::vector<int>& numbers) {
   return some;
 }
 
-/// The points of `numbers` in the box of most.
+/// The points of `numbers` in their robustBox().
 std::vector<int> insideOf(const Points& positions, const std::vector<int>& numbers) {
   if (numbers.empty()) return {};
   const Box box = robustBox(positions, numbers);
@@ -73,7 +74,7 @@ std::vector<int> insideOf(const Points& positions, const std::vector<int>& numbe
   return inside.empty() ? numbers : inside;
 }
 
-/// The directions of the variance, the least first.
+/// Principal axes of points, by ascending variance.
 struct Axes {
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
   Vector3d variances = Vector3d::Ones();
@@ -93,7 +94,7 @@ Axes axesOf(const Points& positions, const std::vector<int>& numbers) {
   return {solver.eigenvectors(), solver.eigenvalues() / static_cast<double>(numbers.size())};
 }
 
-/// The direction at angles in degrees around `up`.
+/// The direction with this azimuth around `up` and this elevation, in degrees.
 Vector3d directionAt(const Vector3d& up, double azimuth, double elevation) {
   int axis = 0;
   up.cwiseAbs().maxCoeff(&axis);
@@ -105,7 +106,7 @@ Vector3d directionAt(const Vector3d& up, double azimuth, double elevation) {
   return std::cos(e) * (std::cos(a) * first + std::sin(a) * second) + std::sin(e) * up;
 }
 
-/// The direction of the eye and what is up, where the camera does not say.
+/// Chooses the directions of the eye and of up, unless they are given, that is, not 0.
 void chooseDirections(const NormalizedPoints& points, const std::vector<int>& inside, Vector3d& eye, Vector3d& up) {
   const Axes axes = axesOf(points.positions, inside);
   Vector3d thin = axes.directions.col(0);
@@ -120,9 +121,9 @@ void chooseDirections(const NormalizedPoints& points, const std::vector<int>& in
   const bool is_flat = axes.variances[0] < flatness * axes.variances[1];
   const bool is_upright = std::abs(thin.z()) < std::numbers::sqrt2 / 2;
   const bool knows_up = up.norm() > 0;
-  // A sensor is usually at 0 of its own coordinates.
+  // A sensor is usually at the origin of its coordinates.
   const Vector3d to_zero = points.at(Vector3d::Zero());
-  if (is_flat && (!is_upright || knows_up)) {  // a terrain, a floor
+  if (is_flat && (!is_upright || knows_up)) {  // a terrain or a floor
     if (!knows_up) up = thin.z() < 0 ? Vector3d(-thin) : thin;
     if (eye.norm() == 0) {
       const Vector3d side = axes.directions.col(1);
@@ -132,7 +133,7 @@ void chooseDirections(const NormalizedPoints& points, const std::vector<int>& in
     return;
   }
   const bool is_seen_from_zero = to_zero.norm() > 1.2 && to_zero.norm() < 20;
-  if (is_flat || (is_seen_from_zero && std::abs(to_zero.normalized().z()) > 0.9)) {  // stands in front of a sensor
+  if (is_flat || (is_seen_from_zero && std::abs(to_zero.normalized().z()) > 0.9)) {  // upright before a sensor
     if (eye.norm() == 0) {
       eye = is_seen_from_zero ? to_zero.normalized() : thin;
       if (!is_seen_from_zero && eye.sum() < 0) eye = -eye;
@@ -140,14 +141,14 @@ void chooseDirections(const NormalizedPoints& points, const std::vector<int>& in
     if (!knows_up) {
       const Vector3d& e = eye;
       const bool is_along_z = std::abs(e.z()) >= std::max(std::abs(e.x()), std::abs(e.y()));
-      // Depth cameras have y downwards and see along z.
+      // Coordinates of depth cameras have y downwards and z forwards.
       up = is_along_z ? (e.z() < 0 ? Vector3d(-Vector3d::UnitY()) : Vector3d::UnitY()) : Vector3d::UnitZ();
     }
     return;
   }
   if (!knows_up) up = Vector3d::UnitZ();
   if (eye.norm() > 0) return;
-  // The broad side, from the front and right and a little from above.
+  // Views the broad side, from the front right and a little from above.
   Eigen::Vector3d level = Vector3d::Zero();
   for (int k = 0; k < 3 && level.norm() < 0.5; ++k) {
     const Vector3d axis = axes.directions.col(k);
@@ -159,7 +160,7 @@ void chooseDirections(const NormalizedPoints& points, const std::vector<int>& in
   eye = aside * level + 0.4 * up;
 }
 
-/// Moves the target and the eye so that the points just fit, with a margin.
+/// Moves the target, unless `keeps_target`, and the eye so that the points just fit, with a margin.
 void fit(const NormalizedPoints& points, const std::vector<int>& inside, const Viewport& port, bool keeps_target,
          Projection& projection) {
   const double half_width = 0.5 * std::max(port.right - port.left, 1) / projection.focal * fill;
@@ -253,7 +254,7 @@ Projection project(const NormalizedPoints& points, const Camera& camera, const V
   if (turns && up.norm() == 0) {
     Vector3d nowhere = Vector3d::UnitX();
     chooseDirections(points, inside, nowhere, up);
-    // Angles are told around an axis.
+    // Azimuth and elevation refer to a coordinate axis.
     int axis = 0;
     up.cwiseAbs().maxCoeff(&axis);
     up = Vector3d::Unit(axis) * (up[axis] < 0 ? -1.0 : 1.0);

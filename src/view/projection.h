@@ -7,39 +7,39 @@
 
 namespace tufted::view {
 
-/// The points of a scene in coordinates of about 1 around 0, and the numbers of those that are finite.
+/// The points of a scene in normalised coordinates, most of them in [-1, 1], and the indices of the finite ones.
 struct NormalizedPoints {
   Points positions;
   std::vector<int> finite;
-  double unit = 1;  ///< the scene's length of 1 in `positions`
+  double unit = 1;  ///< length in `positions` of the scene's unit
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   int exponent = 0;
 
-  /// A position of the scene in these coordinates.
+  /// Normalises a position of the scene.
   Eigen::Vector3d at(const Eigen::Vector3d& position) const;
 };
 
-/// @param scene its finite points are moved and scaled so that most lie between -1 and 1
+/// Moves and scales the finite points of a scene so that most lie in [-1, 1].
 NormalizedPoints normalize(const Scene& scene, int threads);
 
-/// The part of a picture that the scene is drawn into, in samples.
+/// The part of a picture into which the scene is fitted, in samples.
 struct Viewport {
-  int left = 0, right = 0, top = 0, bottom = 0;  ///< where the scene should fit into
+  int left = 0, right = 0, top = 0, bottom = 0;  ///< first column and row, and those after the last
 };
 
-/// Takes normalised positions to the screen.
+/// Maps normalised positions to the screen.
 struct Projection {
   Eigen::Vector3d target, right, up, back;  ///< `back` points to the eye
-  double distance = 1;                      ///< of the eye from the target
-  double focal = 1;                         ///< samples for a slope of 1
-  double center_x = 0, center_y = 0;        ///< where the target is seen
+  double distance = 1;                      ///< distance of the eye from the target
+  double focal = 1;                         ///< samples that a slope of 1 covers
+  double center_x = 0, center_y = 0;        ///< place of the target on the screen, in samples
 
-  /// Right, up and away from the eye, which is at 0.
+  /// A position in the axes right, up and away from the eye, which is at 0.
   Eigen::Vector3d toView(const Eigen::Vector3d& position) const {
     const Eigen::Vector3d from_target = position - target;
     return {from_target.dot(right), from_target.dot(up), distance - from_target.dot(back)};
   }
-  /// A direction in the same axes.
+  /// A direction in the axes of toView().
   Eigen::Vector3d turn(const Eigen::Vector3d& direction) const {
     return {direction.dot(right), direction.dot(up), -direction.dot(back)};
   }
@@ -47,14 +47,14 @@ struct Projection {
   double screenY(const Eigen::Vector3d& view) const { return center_y - focal * view.y() / view.z(); }
 };
 
-/// Nothing nearer to the eye than this is drawn, in normalised coordinates.
+/// What is nearer to the eye than this, in normalised coordinates, is not drawn.
 constexpr double nearest_depth = 1e-3;
 
-/// @param function what the caller called, for the message
-/// @throws InvalidInput for a camera that is not valid
+/// @param function name of the public function, for the message
+/// @throws InvalidInput for a camera that is not finite or out of range
 void checkCamera(const Camera& camera, const char* function);
 
-/// @param camera a valid one
+/// Places the camera, which passed checkCamera(), and chooses what it leaves open.
 Projection project(const NormalizedPoints& points, const Camera& camera, const Viewport& viewport);
 
 }  // namespace tufted::view

@@ -16,25 +16,24 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/// Points per task.
+/// Points per parallel task.
 constexpr std::int64_t block_size = 4096;
-/// No disc is larger than this share of the picture's height, halved: points next to the eye do not hide all.
+/// Greatest radius of a disc as a share of the picture's height, so that points next to the eye do not hide everything.
 constexpr float most_of_picture = 0.1F;
-/// Discs reach over this many samples at least, so that none falls between samples: half the diagonal of one is 0.71.
+/// Least radius of a disc in samples. At more than 0.71, half the diagonal of a sample, no disc falls between samples.
 constexpr float least_radius = 0.75F;
-/// How steeply discs are tilted at most, as the cosine between normal and view: seen along their plane they would
-/// vanish.
+/// Discs are tilted at most so far that the cosine between normal and view is this; edge on they would vanish.
 constexpr float least_cosine = 0.25F;
-/// Near its middle a disc stands forward, by this share of its radius: of overlapping discs the nearest point is seen,
-/// for slopes up to 45 degrees.
+/// The middle of a disc is nearer to the eye than its rim by this share of its radius, so that of overlapping discs the
+/// one with the nearest middle is seen, for slopes up to 45 degrees.
 constexpr float bulge = 1;
-/// Samples from a hole to where the surface around it is looked up: holes are of the size of the discs.
+/// Distances in samples at which the surface around a hole is looked for; holes are about as large as discs.
 constexpr int hole_reaches[] = {2, 4, 8};
-/// The farther samples are looked up only between discs so wide that this share of their radius reaches there.
+/// A disc counts at the second and third distance only if this many times its radius reaches from there to the hole.
 constexpr float hole_share = 1.5F;
-/// How many of eight directions must meet that surface; at a silhouette at most five do.
+/// In how many of eight directions there must be a disc in front; at a silhouette there is one in at most five.
 constexpr int hole_neighbors = 7;
-/// How far behind a disc something is seen through a hole, in its radii: steep surfaces have no holes then.
+/// A sample is behind a disc if it is farther away by more than this many radii; on a steep surface none is.
 constexpr float hole_depth = 4;
 
 void put(Sample& target, float depth, std::uint32_t number) {
@@ -45,10 +44,11 @@ void put(Sample& target, float depth, std::uint32_t number) {
   }
 }
 
-/// Samples from `low` on, before `high`, whose middle is within `radius` of `center`, on a screen of `size`.
+/// Samples in [low, high).
 struct Range {
   int low, high;
 };
+/// The samples of a screen of `size` whose middle is within `radius` of `center`.
 Range around(double center, double radius, int size) {
   return {static_cast<int>(std::clamp(std::ceil(center - radius - 0.5), 0.0, static_cast<double>(size))),
           static_cast<int>(std::clamp(std::floor(center + radius - 0.5) + 1, 0.0, static_cast<double>(size)))};
@@ -68,7 +68,7 @@ void drawDisc(SeenScene& seen, int i) {
   if (!seen.normals.empty()) {
     const Vector3f& n = seen.normals[static_cast<std::size_t>(i)];
     if (n.squaredNorm() > 0) {
-      const float down = std::min(n.z(), -least_cosine);  // depth grows away from the eye, where normals look to
+      const float down = std::min(n.z(), -least_cosine);  // negative: depth grows away from the eye
       slope_x = -n.x() / down;
       slope_y = -n.y() / down;
     }
@@ -129,14 +129,14 @@ void drawTriangle(SeenScene& seen, std::int64_t t) {
     }
 }
 
-/// Whether a sample lies so far behind a point that it is not of its surface, nor of the next disc.
+/// Whether a sample lies so far behind a point that it is on another surface.
 bool isBehind(const SeenScene& seen, Sample sample, int point) {
   const float radius = seen.radii[static_cast<std::size_t>(point)];
   return sample == nothing || depthOf(sample) > seen.views[static_cast<std::size_t>(point)].z() + hole_depth * radius;
 }
 
-/// What is seen at a sample through a hole between discs: a disc in front, where those around are nearly all before it;
-/// otherwise the sample itself.
+/// Fills a sample in a hole between discs: with a disc in front of it, if there are discs in front in nearly all
+/// directions. Returns the sample itself otherwise.
 Sample overHole(const SeenScene& seen, int x, int y) {
   static constexpr std::array<std::array<int, 2>, 8> directions = {
       {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
@@ -162,7 +162,7 @@ Sample overHole(const SeenScene& seen, int x, int y) {
   return own;
 }
 
-/// Closes the holes that random points leave between discs.
+/// Fills the holes that randomly spaced points leave between discs.
 void closeHoles(SeenScene& seen, int threads) {
   std::vector<Sample> closed(seen.samples.size());
   forBlocks(threads, seen.height, 16, [&](std::int64_t begin, std::int64_t end) {
@@ -172,7 +172,7 @@ void closeHoles(SeenScene& seen, int threads) {
   seen.samples = std::move(closed);
 }
 
-/// How wide the disc of a point is on the screen, halved.
+/// The radius of a point's disc on the screen, in samples.
 float screenRadius(const SeenScene& seen, std::size_t i) {
   const float wanted = seen.radii[i] * static_cast<float>(seen.projection.focal) / seen.views[i].z();
   return std::clamp(wanted, least_radius, std::max(least_radius, most_of_picture * static_cast<float>(seen.height)));

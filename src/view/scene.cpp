@@ -10,7 +10,7 @@ namespace {
   throw InvalidInput(std::string(function) + ": " + what);
 }
 
-/// How many columns values of a kind must have; 0: any number.
+/// Number of columns that values of a kind must have; 0: any number.
 Eigen::Index columnsOf(FieldKind kind) {
   switch (kind) {
     case FieldKind::vector:

@@ -16,28 +16,28 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Values = std::array<float, 2>;
 
-/// Rows per task.
+/// Rows per parallel task.
 constexpr std::int64_t rows_per_block = 16;
-/// Discs that are larger, in samples, have their values blended with those of their neighbours; smaller ones differ by
-/// less than a colour.
+/// Values of discs with a larger radius than this, in samples, are blended with those of neighbouring discs; smaller
+/// discs differ by less than a colour.
 constexpr float blended_radius = 1.5F;
-/// Steps on each side at which neighbouring discs are looked up within a radius: 49 samples on a disc.
+/// Blending takes samples in this many steps per radius to each side, so 49 in all.
 constexpr int blend_steps = 3;
-/// The width of the bell by which their values count, in radii: isolines run smoothly, and values stay where they are.
+/// Standard deviation of the blending weights, in radii: isolines become smooth, and values hardly move.
 constexpr float blend_width = 0.5F;
-/// Samples belong to one surface if their depths differ by less, in radii of the disc.
+/// Samples are on one surface if their depths differ by at most this many radii of the disc.
 constexpr float same_surface = 4;
-/// Light on a surface that is seen at a right angle to it: colours are never lighter than those of the map.
+/// Factor of the colour of a surface that faces the light: no colour is lighter than in the map.
 constexpr float full_light = 1;
-/// Light on a surface that is seen along it: dark sides keep their colour.
+/// Factor of the colour of a surface that the light does not reach: dark sides still show their colour.
 constexpr float least_light = 0.42F;
-/// How strongly depth shades where there are normals: edges stand out, surfaces stay as they are.
+/// Strength of shading by depth if there are normals: edges stand out, surfaces do not change.
 constexpr float weak_edges = 18;
-/// How strongly depth shades where it alone tells the shape.
+/// Strength of shading by depth without normals, when it alone shows the shape.
 constexpr float strong_edges = 60;
-/// Samples to those whose depth is compared: edges are a pixel and a half wide.
+/// Distance in samples of those whose depths are compared: edges are a pixel and a half wide.
 constexpr int edge_reach = 3;
-/// The share of its colour that a surface keeps under an isoline.
+/// Factor of the colour under an isoline.
 constexpr float line_share = 0.35F;
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 /// The colour of a surface under arrows.
@@ -88,7 +88,7 @@ class Shader {
     };
     return {corner(0), corner(1), corner(2)};
   }
-  /// The shares of the corners of a triangle at a sample.
+  /// The barycentric coordinates of a sample in a triangle.
   Vector3d sharesAt(std::uint32_t t, int x, int y) const {
     const Vector3d shares = triangleOf(t).shares(rayThrough(seen_.projection, x, y));
     const double sum = shares.sum();
@@ -123,14 +123,14 @@ class Shader {
     return valuesOfPoint(number);
   }
 
-  /// Whether coordinates of neighbours jump, as those of a logarithmic map do where shortest paths meet.
+  /// Whether coordinates jump between neighbours, as those of a logarithmic map do at the cut locus.
   bool isCutBetween(const Values& a, const Values& b) const {
     return colors_.field->kind == FieldKind::coordinates &&
            std::hypot(a[0] - b[0], a[1] - b[1]) > colors_.shareOfStep();
   }
 
-  /// The mean of the values of the points around a sample, by a bell as wide as the disc that is seen there. Triangles
-  /// keep their values.
+  /// The mean of the values around a sample, with Gaussian weights in proportion to the radius of the disc there.
+  /// Values on triangles are not blended.
   Values blendedValues(const std::vector<Values>& unblended, int x, int y) const {
     const Sample sample = seen_.samples[at(x, y)];
     const Values own = unblended[at(x, y)];
@@ -178,7 +178,7 @@ class Shader {
     return colors_.colorOfPoint(seen_.scene.triangles(t, corner));
   }
 
-  /// The normal towards the eye; 0 where it is unknown.
+  /// The normal towards the eye; 0 if unknown.
   Vector3f normalAt(int x, int y, std::uint32_t number) const {
     if (number < points_) return seen_.normals.empty() ? Vector3f::Zero().eval() : seen_.normals[number];
     const std::uint32_t t = number - points_;
@@ -198,20 +198,20 @@ class Shader {
     return normal.dot(rayThrough(seen_.projection, x, y).cast<float>()) > 0 ? Vector3f(-normal) : normal;
   }
 
-  /// The share of light at a sample.
+  /// The factor by which light and depth shade a sample.
   float lightAt(int x, int y, Sample sample) const {
     const Vector3f normal = normalAt(x, y, numberOf(sample));
     const bool is_known = normal.squaredNorm() > 0;
     float light = full_light;
     if (is_known) {
-      // From the left and above the eye; depth grows away from it.
+      // The light comes from the left and above the eye; depth grows away from it.
       static const Vector3f source = Vector3f(-0.35F, 0.45F, -1).normalized();
       light = least_light + (full_light - least_light) * std::max(normal.dot(source), 0.0F);
     }
     return light * std::exp(-(is_known ? weak_edges : strong_edges) * depthBelowNeighbors(x, y));
   }
 
-  /// How far the neighbours of a sample stand before it, as the mean of logarithms of depths (Boucheny 2009,
+  /// How far neighbours are in front of a sample: the mean difference of the logarithms of depth (Boucheny 2009,
   /// Section 3.3).
   float depthBelowNeighbors(int x, int y) const {
     static constexpr std::array<std::array<int, 2>, 8> steps = {
@@ -283,10 +283,10 @@ class Shader {
   const FieldColors& colors_;
   const PictureOptions& options_;
   std::uint32_t points_;
-  /// Differences of logarithms of depth that the bulges of discs make and that do not shade.
+  /// Differences of logarithms of depth up to this do not shade, as they are due to the bulges of discs.
   float slack_ = 0.0005F;
   std::vector<Values> values_;
-  std::vector<float> log_depths_;  // not a number where nothing is seen
+  std::vector<float> log_depths_;  // NaN where nothing is seen
   std::vector<std::array<std::uint8_t, 4>> shaded_;
 };
 

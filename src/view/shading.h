@@ -9,10 +9,10 @@ namespace tufted::view {
 /// Colours all samples and averages 2 x 2 of them into each pixel.
 Picture shade(const SeenScene& seen, const FieldColors& colors, const PictureOptions& options);
 
-/// Samples on each side of a pixel: edges without steps at four times the work.
+/// Samples along each side of a pixel: 2 smooth edges, at four times the work of 1.
 constexpr int samples_per_pixel = 2;
 
-/// Red, green, blue and alpha of what lies behind the scene.
+/// Red, green, blue and alpha of the background.
 std::array<std::uint8_t, 4> backgroundColor(Background background);
 
 }  // namespace tufted::view

@@ -10,8 +10,8 @@ namespace tufted::view {
 
 namespace {
 
-/// Values within this many distances of the quartiles beyond them are no outliers (Tukey 1977, "Exploratory Data
-/// Analysis": the outer fences). All of even and of normal values keep their colours.
+/// Values within this many interquartile ranges of the quartiles are no outliers (the outer fences of Tukey 1977,
+/// "Exploratory Data Analysis"). Uniformly or normally distributed values have none.
 constexpr double fence = 3;
 
 ValueRange fitted(FieldKind kind, double low, double high) {

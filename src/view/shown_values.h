@@ -12,7 +12,7 @@ inline bool isLogarithmic(FieldKind kind) {
   return kind == FieldKind::positive;
 }
 
-/// The numbers by which points are coloured: a column, its logarithms, or lengths of rows. NaN where there is none.
+/// The values by which points are coloured: a column, its logarithms, or the lengths of rows; NaN if there is none.
 Eigen::VectorXd shownValues(const SceneField& field, int column);
 
 /// The values at the ends of a colour map.
@@ -20,14 +20,15 @@ struct ValueRange {
   double low = 0, high = 0;
 };
 
-/// What can be chosen for it, for values of a kind.
+/// Ranges of the colour map that can be chosen.
 struct ValueRanges {
-  ValueRange usual;   ///< of most values: outliers have the colour of an end
-  ValueRange all;     ///< from the least to the greatest
+  ValueRange usual;   ///< from the least to the greatest value except outliers
+  ValueRange all;     ///< from the least to the greatest value
   ValueRange middle;  ///< from the 1st to the 99th percentile
 };
 
-/// @param values those of shownValues(). Lengths begin at 0, and values around 0 have the same range on both sides.
+/// Finds these ranges. Those of lengths begin at 0; those of diverging values are symmetric about 0.
+/// @param values as from shownValues()
 ValueRanges rangesOf(FieldKind kind, const Eigen::Ref<const Eigen::VectorXd>& values);
 
 }  // namespace tufted::view

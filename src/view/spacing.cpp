@@ -13,20 +13,20 @@ namespace tufted::view {
 
 namespace {
 
-/// How many points before and after in the order along a curve are looked at; more take time and find few nearer ones.
+/// Neighbours are searched among this many points before and after in Morton order; more find few nearer ones.
 constexpr std::ptrdiff_t window = 14;
-/// The distance to this neighbour, counted from 1, is taken for the spacing: on a square grid that of the diagonal.
+/// The distance to this neighbour, counted from 1, is the spacing; on a square grid it is a diagonal.
 constexpr int neighbor = 8;
-/// The radius of a disc in that distance. Less leaves holes where points are random.
+/// Radius of a disc in units of the spacing. Less leaves holes between randomly spaced points.
 constexpr float disc_share = 0.85F;
-/// No disc is larger than this share of the scene's half size, whatever its neighbours.
+/// Greatest radius of a disc, as a share of half the scene's size.
 constexpr float most_of_scene = 0.12F;
-/// No disc is larger than this many times the median: scanners sample unevenly, and outliers stay small.
+/// Greatest radius of a disc in units of the median: enough for uneven scans, while outliers stay small.
 constexpr float most_of_others = 4;
-/// The radius of points without enough neighbours, in the scene's half size.
+/// Radius of points without enough neighbours, as a share of half the scene's size.
 constexpr float lone_radius = 0.025F;
 
-/// Spreads 21 bits so that two others fit between each and the next.
+/// Spreads 21 bits so that there are two bits between neighbours.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffff;
   x = (x | x << 16) & 0x1f0000ff0000ff;
@@ -35,7 +35,7 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249;
 }
 
-/// The place of a point on Morton's curve through a cube that is moved by `shift`.
+/// The Morton code of a position in a cube that is moved by `shift`.
 std::uint64_t placeOf(const Eigen::Vector3d& position, double shift) {
   std::uint64_t place = 0;
   for (int k = 0; k < 3; ++k) {
@@ -45,13 +45,13 @@ std::uint64_t placeOf(const Eigen::Vector3d& position, double shift) {
   return place;
 }
 
-/// A point on the curve. The position is kept beside it, so that those of a window lie together in memory.
+/// A point in Morton order, with its position, so that positions of a window are adjacent in memory.
 struct Placed {
   int point;
   Eigen::Vector3f position;
 };
 
-/// The finite points in their order along the curve through the cube moved by `shift`; ties by their numbers.
+/// The finite points in Morton order in the cube moved by `shift`, ties by index.
 std::vector<Placed> alongCurve(const NormalizedPoints& points, double shift) {
   std::vector<std::pair<std::uint64_t, int>> places;
   places.reserve(points.finite.size());
@@ -63,7 +63,7 @@ std::vector<Placed> alongCurve(const NormalizedPoints& points, double shift) {
   return order;
 }
 
-/// The least distances that were met, ascending.
+/// The smallest squared distances added so far, ascending.
 class Nearest {
  public:
   Nearest() { squares_.fill(std::numeric_limits<float>::infinity()); }
@@ -84,8 +84,8 @@ class Nearest {
 Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads) {
   const auto count = static_cast<std::int64_t>(points.finite.size());
   std::vector<float> radii(static_cast<std::size_t>(points.positions.rows()), std::numeric_limits<float>::infinity());
-  // Neighbours in space may be far on the curve where it passes between large cells; on one of two curves that are
-  // moved against each other they are near.
+  // Neighbours on two sides of a large cell's border are far apart in Morton order, but mostly not in both of two
+  // shifted orders.
   const std::array<double, 2> shifts = {0, 0.618};
   std::array<std::vector<Placed>, 2> orders;
   forBlocks(threads, 2, 1, [&](std::int64_t begin, std::int64_t) {

@@ -6,14 +6,14 @@
 
 namespace tufted::view {
 
-/// The discs that points are drawn as.
+/// The discs as which points are drawn.
 struct Discs {
-  /// N, in the coordinates of the points: discs so wide that, together with their neighbours', they leave no hole in
-  /// the surface; at most a share of the scene, and not much more than others have, so that a point far from all others
-  /// is a dot. Discs of points without a value in the first field, NaN, are no larger than the median: mostly these lie
-  /// on no surface, and would hide what lies behind them.
+  /// N radii in normalised coordinates, so wide that neighbouring discs leave no hole in the surface, but at most a
+  /// share of the scene and a few times the median, so that a point far from all others is a dot. Discs of points whose
+  /// value in the first field is NaN are at most as large as the median: mostly these lie on no surface, and would hide
+  /// what is behind them.
   std::vector<float> radii;
-  /// The finite points along a curve on which neighbours are near each other, so that memory is when they are drawn.
+  /// The finite points in Morton order, so that points drawn one after another are near in memory.
   std::vector<int> order;
 };
 

@@ -14,9 +14,9 @@ namespace tufted::view {
 
 namespace {
 
-/// The characters of a text of UTF-8.
+/// The characters of a UTF-8 text.
 std::u32string charactersOf(const std::string& text) {
-  // What stands for bytes that are no UTF-8, by Unicode.
+  // Unicode's replacement character, for bytes that are not UTF-8.
   constexpr char32_t unknown = 0xfffd;
   std::u32string characters;
   for (std::size_t i = 0; i < text.size();) {
@@ -51,7 +51,7 @@ struct Canvas::Font {
   Font& operator=(const Font&) = delete;
 
   void setSize(double size) { FT_Set_Char_Size(face, 0, static_cast<FT_F26Dot6>(std::lround(size * 64)), 72, 72); }
-  /// Loads the picture of a character.
+  /// Renders a character; null if that fails.
   FT_GlyphSlot load(char32_t character) {
     if (FT_Load_Char(face, character, FT_LOAD_RENDER | FT_LOAD_NO_HINTING) != 0) return nullptr;
     return face->glyph;

@@ -7,7 +7,7 @@
 
 namespace tufted::view {
 
-/// Lines, boxes and letters on a picture. Coordinates are pixels from the upper left.
+/// Draws lines, boxes and text on a picture. Coordinates are pixels from the upper left corner.
 class Canvas {
  public:
   explicit Canvas(Picture& picture);
@@ -18,12 +18,12 @@ class Canvas {
   void fill(int left, int top, int right, int bottom, const Rgb& color);
   void line(double x0, double y0, double x1, double y1, double width, const Rgb& color);
   void triangle(const std::array<Eigen::Vector2d, 3>& corners, const Rgb& color);
-  /// @param text UTF-8; other bytes are U+FFFD
-  /// @param y of the line that letters stand on
+  /// @param text UTF-8; other bytes are drawn as U+FFFD
+  /// @param x,y left end of the baseline
   void text(const std::string& text, double x, double y, double size, const Rgb& color);
-  /// How wide a text is.
+  /// The width of a text.
   double widthOf(const std::string& text, double size);
-  /// The text, shortened by an ellipsis to fit.
+  /// The text or, if it is wider than `width`, its beginning and an ellipsis.
   std::string shorten(const std::string& text, double size, double width);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace tufted::view {
 
-/// Calls `work(begin, end)` for ranges of `block` numbers that cover [0, size), on several threads.
+/// Calls `work(begin, end)` on several threads for ranges of `block` numbers that cover [0, size).
 /// @param threads at most this many; 0: one per processor
 template <class Work>
 void forBlocks(int threads, std::int64_t size, std::int64_t block, const Work& work) {

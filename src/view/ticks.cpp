@@ -8,17 +8,17 @@ namespace tufted::view {
 
 namespace {
 
-/// Marks of a legend, about.
+/// About how many marks a scale has.
 constexpr int most_steps = 6;
-/// Between fewer powers of ten there are marks at two and five times these, seven or eight at most.
+/// A logarithmic scale of fewer powers of ten also has marks at two and five times these, seven or eight in all.
 constexpr double most_powers = 2.5;
-/// A scale that is shorter, by the greatest number on it, has marks that count from a round number near its low end:
-/// all would begin with the same five digits.
+/// A scale shorter than this, relative to its greatest number, has marks relative to a round number near its low end,
+/// because all would begin with the same digits.
 constexpr double short_scale = 1e-4;
-/// A scale that is shorter shows the last digits of doubles, and has one mark.
+/// A scale shorter than this, relative to its greatest number, has one mark: it is within rounding of doubles.
 constexpr double shortest_scale = 1e-13;
 
-/// A number with `digits` after the point and a true minus sign.
+/// A number with `digits` decimals and a typographic minus sign.
 std::string numberText(double value, int digits) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", digits, std::abs(value));
@@ -33,7 +33,7 @@ double niceStep(double span, int count) {
   if (!(span > 0) || !std::isfinite(span)) return 0;
   const double rough = span / count;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  if (!(power > 0)) return 0;  // below the least number
+  if (!(power > 0)) return 0;  // underflow
   const double share = rough / power;
   return power * (share <= 1.0001 ? 1 : share <= 2.0001 ? 2 : share <= 5.0001 ? 5 : 10);
 }
@@ -71,7 +71,7 @@ Ticks ticksOf(double low, double high) {
 
 Ticks logarithmicTicksOf(double low, double high) {
   Ticks ticks;
-  if (!(high - low >= 1)) {  // less than a power of ten: as on any scale, at other places
+  if (!(high - low >= 1)) {  // less than a factor of ten: linear marks, at their logarithms
     ticks = ticksOf(std::pow(10.0, low), std::pow(10.0, high));
     for (double& value : ticks.values) value = std::log10(value);
     return ticks;

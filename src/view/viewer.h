@@ -4,10 +4,10 @@
 
 namespace tufted::view {
 
-/// The file src/view/page/viewer.html: the page without a scene.
+/// The content of src/view/page/viewer.html, the page without a scene.
 extern const std::string_view viewer;
 
-/// Where in it the scene goes.
+/// The place in `viewer` where the scene is inserted.
 constexpr std::string_view scene_mark = "<!--scene-->";
 
 }  // namespace tufted::view

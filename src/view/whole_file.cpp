@@ -19,12 +19,12 @@ namespace {
   throw IoError(path.string() + ": cannot write: " + std::system_category().message(error));
 }
 
-/// The file that a path names, behind all links; it need not exist.
+/// Follows links to a file, which need not exist. @throws IoError if it is no regular file
 std::filesystem::path behindLinks(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (error && status.type() != fs::file_type::not_found) refuse(path, error.value());  // as where links go in circles
+  if (error && status.type() != fs::file_type::not_found) refuse(path, error.value());  // such as a cycle of links
   if (fs::is_directory(status)) throw IoError(path.string() + ": cannot write: is a directory");
   if (fs::exists(status) && !fs::is_regular_file(status))
     throw IoError(path.string() + ": cannot write: is no regular file");
@@ -45,7 +45,7 @@ void writeAll(int file, std::string_view bytes, const std::filesystem::path& sho
   }
 }
 
-/// The directory itself, or the nearest one above it that exists.
+/// The directory or, if it does not exist, the nearest one above it that does.
 std::filesystem::path nearestDirectory(std::filesystem::path directory) {
   std::error_code error;
   while (!directory.empty() && !std::filesystem::exists(directory, error)) directory = directory.parent_path();
@@ -53,7 +53,7 @@ std::filesystem::path nearestDirectory(std::filesystem::path directory) {
 }
 
 void removeHidden(const std::string& file, const std::string& folder) {
-  ::unlink(file.c_str());  // which is gone where the file has its name
+  ::unlink(file.c_str());  // fails if the file was renamed
   ::rmdir(folder.c_str());
 }
 

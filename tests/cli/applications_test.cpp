@@ -37,7 +37,7 @@ TEST_F(ApplicationCommands, DistanceComesFromIndicesPositionsAndFaces) {
   const std::string square = dir_.write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
   run({"distance", square, "--face", "0,2,1,1", "--out", in("face")});
   const std::vector<double> corners = values("face/distance.npy");
-  EXPECT_NEAR(corners[0], std::hypot(0.5, 0.25), 1e-15);  // of (1/2, 1/4)
+  EXPECT_NEAR(corners[0], std::hypot(0.5, 0.25), 1e-15);  // the source is (1/2, 1/4)
   EXPECT_NEAR(corners[2], std::hypot(0.5, 0.75), 1e-15);
   expectRefusal({"distance", square, "--face", "2,1,1,1"}, "face = 2");
   expectRefusal({"distance", square, "--face", "0,1,1"}, "FACE,A,B,C");
@@ -69,7 +69,7 @@ TEST_F(ApplicationCommands, DistanceStopsAtARadiusLabelsAndFillsMatrices) {
   EXPECT_LT(report("part")["report"]["visits"], report("whole")["report"]["visits"]);
   run({"distance", cloud, "--source", "3,7", "--within", "0.5", "--out", in("near")});
   EXPECT_EQ(values("near/distance.npy"), part);
-  EXPECT_FALSE(report("near")["report"].contains("solver"));  // the whole surface is not prepared
+  EXPECT_FALSE(report("near")["report"].contains("solver"));  // no solver for the whole surface is made
   expectRefusal({"distance", cloud, "--source", "0", "--within", "0"}, "--within");
   expectRefusal({"distance", cloud, "--source", "0", "--split", "3"}, "--split");
   expectRefusal({"distance", cloud, "--source", "0", "--time-step", "1"}, "--time-step applies to --method heat");
@@ -110,7 +110,7 @@ TEST_F(ApplicationCommands, PlacesComeFromFiles) {
 
 TEST_F(ApplicationCommands, PlacesAreCheckedBeforeTheBuild) {
   const std::string cloud = dir_.write("sphere.xyz", sphere(100));
-  // A build with --normals fails, as the file has none.
+  // A build fails with --normals, because the file has none.
   expectRefusal({"distance", cloud, "--normals", "--source", "0"}, "--normals", 1);
   expectRefusal({"distance", cloud, "--normals", "--source", "100"}, "--source 100 is no index in [0, 100)");
   expectRefusal({"distance", cloud, "--normals", "--near", "0,0,nan"}, "--near 0,0,nan is not finite");
@@ -123,7 +123,7 @@ TEST_F(ApplicationCommands, PlacesAreCheckedBeforeTheBuild) {
 
 TEST_F(ApplicationCommands, CountsAreCheckedBeforeTheBuild) {
   const std::string cloud = dir_.write("sphere.xyz", sphere(100));
-  // A build with --normals fails, as the file has none.
+  // A build fails with --normals, because the file has none.
   for (const std::string command : {"spectrum", "hks", "operators"}) {
     const std::string most = command == "operators" ? "100" : "99", more = command == "operators" ? "101" : "100";
     expectRefusal({command, cloud, "--normals", "--count", most}, "--normals", 1);
@@ -213,7 +213,7 @@ TEST_F(ApplicationCommands, GreenHasAColumnPerPoint) {
 }
 
 TEST_F(ApplicationCommands, AdaptedTimeStepsFollowTheLargeTrianglesOfAnUnevenMesh) {
-  // A strip of squares, then of rectangles that get wider and wider.
+  // A strip of squares, or of rectangles whose width grows.
   const auto timeStep = [&](double growth, const std::string& unit) {
     std::string strip = "OFF\n42 40 0\n";
     double x = 0, width = 1;
@@ -234,7 +234,7 @@ TEST_F(ApplicationCommands, AdaptedTimeStepsFollowTheLargeTrianglesOfAnUnevenMes
 }
 
 TEST_F(ApplicationCommands, StopAtCtrlCWhileTheySolve) {
-  // A strip so long that heat starts again many times.
+  // A strip so long that heat takes many rounds.
   const int squares = 20000;
   std::string strip = "OFF\n" + std::to_string(2 * squares + 2) + ' ' + std::to_string(2 * squares) + " 0\n";
   for (int i = 0; i <= squares; ++i) strip += std::to_string(i) + " 0 0\n" + std::to_string(i) + " 1 0\n";

@@ -64,7 +64,7 @@ TEST_F(Command, PresetsChooseTheStepsOfClouds) {
 }
 
 TEST_F(Command, LooksForJumpsFromWhereTheFileSaysTheSensorStood) {
-  // A square before a wall four times as far, in the same pixels, as an image and as a list.
+  // A square before a wall four times as far away, as an organized cloud and as one row.
   const auto jumps = [&](int width, int height, const std::string& viewpoint) {
     std::string text = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + std::to_string(width) +
                        "\nHEIGHT " + std::to_string(height) + "\nVIEWPOINT " + viewpoint +
@@ -81,7 +81,7 @@ TEST_F(Command, LooksForJumpsFromWhereTheFileSaysTheSensorStood) {
     const std::string report = readAll(dir_ / "out/report.json"), name = "\"jump_points\": ";
     return std::stoi(report.substr(report.find(name) + name.size()));
   };
-  EXPECT_EQ(jumps(1296, 1, "0 0 0"), 0);  // says nothing of a list
+  EXPECT_EQ(jumps(1296, 1, "0 0 0"), 0);  // 0 is no viewpoint of an unorganized cloud
   EXPECT_GE(jumps(36, 36, "0 0 0"), 48);  // around the square of 13 x 13 pixels
   EXPECT_GE(jumps(1296, 1, "0 0 1"), 48);
 }

@@ -14,7 +14,7 @@ extern char** environ;
 
 namespace {
 
-// posix_spawn and not fork, which threads that wait for work do not survive.
+// Not by fork(), whose child has only the calling thread.
 pid_t spawn(std::vector<std::string> words, int in, int out, int err) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -24,7 +24,7 @@ pid_t spawn(std::vector<std::string> words, int in, int out, int err) {
   posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
-  // Whatever the tests run under, such as nohup, the command starts with the signals as they are by default.
+  // The command starts with default signals, even if the tests run under nohup.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t signals;
@@ -52,7 +52,7 @@ int wait(pid_t pid) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Appends what can be read. False at the end.
+/// Appends what can be read. Returns false at the end.
 bool readSome(int file, std::string& text) {
   char buffer[4096];
   const ssize_t count = read(file, buffer, sizeof(buffer));
@@ -128,5 +128,5 @@ Result interruptTufted(const std::vector<std::string>& arguments, int signal, co
 }
 
 Result watchTufted(const std::vector<std::string>& arguments) {
-  return interruptTufted(arguments, 0);  // signal 0 is none
+  return interruptTufted(arguments, 0);  // signal 0 does nothing
 }

@@ -12,11 +12,11 @@ struct Result {
   std::string err;
 };
 
-/// A program while it runs. None of its streams is a terminal.
+/// A running program. None of its streams is a terminal.
 class Process {
  public:
-  /// @param words the program, found on the path, and its arguments
-  /// @param input a file to be its standard input
+  /// @param words the program, found by PATH, and its arguments
+  /// @param input file that is its standard input
   Process(const std::vector<std::string>& words, const std::string& input);
 
   pid_t pid() const { return pid_; }
@@ -28,20 +28,18 @@ class Process {
   int out_ = -1, err_ = -1;
 };
 
-/// Starts the command `tufted` with these arguments.
 Process startTufted(const std::vector<std::string>& arguments, const std::string& input = "/dev/null");
 
-/// Runs the command `tufted` with these arguments and waits for it.
+/// Runs the command `tufted` and waits for it.
 Result runTufted(const std::vector<std::string>& arguments, const std::string& input = "/dev/null");
 
-/// Path of the command `tufted`.
 std::string tuftedCommand();
 
-/// Runs any program; its arguments may name tuftedCommand().
+/// Runs any program and waits for it.
 Result runProgram(const std::vector<std::string>& words);
 
 /// Runs the command with a terminal as stderr, and sends a signal as soon as a text appears there.
-/// @param text such as the name of a stage; empty: anything
+/// @param text for example the name of a stage; empty: any text
 Result interruptTufted(const std::vector<std::string>& arguments, int signal = SIGINT, const std::string& text = "");
 
 /// Runs the command with a terminal as stderr, and waits for it.

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# What the completion for bash offers.   completion_test.sh SCRIPT COMMAND
+# Tests the completion for bash.   completion_test.sh SCRIPT COMMAND
 set -uo pipefail
 # shellcheck source=/dev/null
 source "$1"
 command=$2 failed=0
 
-# expect WORDS... -- OFFERED...: what is offered for the last of the words, in any order.
+# expect WORDS... -- OFFERED...: checks what is offered for the last of the words, in any order.
 expect() {
   local offered wanted
   COMP_WORDS=("$command")

@@ -1,4 +1,4 @@
-// What the command says: help, the version, the summary in its three kinds, and progress.
+// The command's output: help, version, summary with each option of the console, and progress.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class ConsoleOutput : public Subcommands {
     return result.out;
   }
 
-  /// The names of all subcommands, as the help lists them: behind two spaces, under the line of a purpose.
+  /// The names of all subcommands in the help, which lists them after two spaces.
   static std::vector<std::string> names() {
     std::vector<std::string> found;
     bool is_list = false;
@@ -34,7 +34,7 @@ class ConsoleOutput : public Subcommands {
     return found;
   }
 
-  /// The commands that a help has as examples, in words, without the first.
+  /// The words of each example in a help, without the first.
   static std::vector<std::vector<std::string>> examples(const std::string& text) {
     std::vector<std::vector<std::string>> found;
     for (const std::string& line : linesOf(text)) {
@@ -46,7 +46,7 @@ class ConsoleOutput : public Subcommands {
     return found;
   }
 
-  /// Runs an example; the files and folders that it names are in the folder of the test.
+  /// Runs an example with files and folders in the folder of the test.
   void tryExample(std::vector<std::string> words) {
     const auto isFile = [](const std::string& word) {
       return word == "scans" || word.ends_with(".ply") || word.ends_with(".off") || word.ends_with(".png") ||
@@ -94,7 +94,7 @@ TEST_F(ConsoleOutput, EveryExampleOfEveryHelpRuns) {
   dir_.write("scan.ply", "");
   dir_.write("scan.xyz", sphere(400));
   dir_.write("mesh.off", tetrahedron);
-  dir_.write("open.off", "OFF 4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");  // has a rim, as maps need
+  dir_.write("open.off", "OFF 4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");  // with a rim, for parameterize
   dir_.write("handles.txt", "0 0 0 1  # there\n3\n");
   dir_.write("rim.txt", "0\n1\n3\n");
   dir_.write("points.txt", "0\n2\n");

@@ -1,4 +1,4 @@
-// What all subcommands have in common about odd files and about the options of building.
+// Odd files and options of building, with all subcommands.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -10,7 +10,7 @@ namespace {
 
 class Dialects : public Subcommands {
  protected:
-  /// A command of `commands` on a file.
+  /// Arguments that run a command of `commands` on a file.
   std::vector<std::string> on(const std::string& file, std::vector<std::string> command) const {
     command.insert(command.begin() + 1, file);
     command.insert(command.end(), {"--out", in("out"), "--json"});
@@ -55,7 +55,7 @@ TEST_F(Dialects, FieldsAreNamedAsTheFileOrThisProgramNamesThem) {
 TEST_F(Dialects, EverySubcommandThatBuildsTakesAllOptionsOfBuilding) {
   const std::string file = dir_.write("a.xyz", sphere(100));
   for (std::vector<std::string> command : commands) {
-    if (command[0] == "denoise") continue;  // builds nothing
+    if (command[0] == "denoise") continue;  // builds no Laplacian
     std::vector<std::string> refused = command;
     refused.insert(refused.begin() + 1, file);
     refused.insert(refused.end(), {"--seed", "3"});

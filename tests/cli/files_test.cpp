@@ -15,7 +15,7 @@ class Files : public testing::Test {
  protected:
   std::string out() const { return (dir_ / "out").string(); }
 
-  /// Exit code 1, one line that names the path and the line or byte, and nothing left behind.
+  /// Expects exit code 1, one line that names the path and the line or byte, and no files.
   void expectRefused(const std::string& path, const Result& result) {
     EXPECT_EQ(result.code, 1) << result.err;
     EXPECT_EQ(result.out, "");
@@ -80,7 +80,7 @@ TEST_F(Files, ThatMayNotBeReadAreRefused) {
 }
 
 TEST_F(Files, NormalsAreUsedWhereTheFileHasThem) {
-  // A lattice in the plane z = 0 whose normals say so, but for one that lies in the plane.
+  // A lattice in the plane z = 0, with correct normals except one that lies in the plane.
   std::string text, plain;
   for (int i = 0; i < 100; ++i) {
     const std::string point = std::to_string(i % 10 + 0.1 * (i * i % 7)) + ' ' + std::to_string(i / 10) + " 0";

@@ -20,7 +20,7 @@ class Info : public testing::Test {
     return Json::parse(result.out);
   }
 
-  /// Whether one of the sentences about what is odd begins like that.
+  /// Whether one of the oddities begins with this text.
   static bool isOdd(const Json& info, const std::string& beginning) {
     for (const Json& sentence : info["odd"])
       if (sentence.get<std::string>().starts_with(beginning)) return true;
@@ -51,7 +51,7 @@ TEST_F(Info, SaysWhatAnOrganizedCloudHolds) {
 }
 
 TEST_F(Info, ExpectsTheBuildByPixelsOfADepthImage) {
-  // A slope that a pinhole camera at the origin sees, and what is left of it without its rows.
+  // A slope seen by a pinhole camera at the origin, as an image and as one row.
   std::string points;
   for (int i = 0; i < 40 * 30; ++i) {
     const double x = (i % 40 - 19.5) / 40, y = (i / 40 - 14.5) / 40, depth = 2 / (1 - 0.3 * x);
@@ -98,7 +98,7 @@ TEST_F(Info, WarnsOfFloatsThatAreTooCoarse) {
   EXPECT_EQ(cloud["spacing"], 0.25);
   EXPECT_TRUE(isOdd(cloud, "so far from the origin")) << cloud["odd"];
   const Json huge = info(dir_.write("huge.xyz", "1e40 0 0\n2e40 0 0\n1e40 1e40 0\n2e40 1e40 0\n"));
-  EXPECT_TRUE(huge["float_step"].is_null());  // no such float
+  EXPECT_TRUE(huge["float_step"].is_null());  // the step exceeds all floats
   EXPECT_TRUE(isOdd(huge, "coordinates beyond the range of floats"));
 }
 

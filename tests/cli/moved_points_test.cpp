@@ -7,7 +7,7 @@
 namespace moved_points_test {
 namespace {
 
-/// A unit square of n x n cells that a bump lifts in its middle.
+/// A unit square of n x n cells with a bump in the middle.
 std::string bump(int n, double height) {
   std::string text = "OFF\n" + std::to_string((n + 1) * (n + 1)) + " " + std::to_string(2 * n * n) + " 0\n";
   for (int i = 0; i <= n; ++i)
@@ -59,7 +59,7 @@ TEST_F(MovedPoints, ParameterizeWritesTheMapAndHowGoodItIs) {
 }
 
 TEST_F(MovedPoints, ParameterizeCountsEveryPointThatHasNoPlace) {
-  // A square, points that no triangle names, and one that is not finite; then also a closed surface.
+  // A square, points of no triangle and one that is not finite; then the same with a closed surface.
   const std::string beside = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n5 5 5\n6 6 6\nnan 0 0\n", faces = "3 0 1 2\n3 0 2 3\n";
   const std::string square = dir_.write("square.off", "OFF\n7 2 0\n" + beside + faces);
   const std::string parts = dir_.write("parts.off", "OFF\n11 6 0\n" + beside + "8 0 0\n9 0 0\n8 1 0\n8 0 1\n" + faces +
@@ -107,10 +107,10 @@ TEST_F(MovedPoints, DenoiseMovesTheDepthsOfAnImageAlongItsRays) {
   const nlohmann::json made = report("clean")["report"];
   EXPECT_GT(made["moved"], 2850);
   EXPECT_NEAR(made["noise"], 0.002, 0.0003);
-  // Where no point moves, that it was taken for an image is said as well.
+  // The summary names the depth image even if no point moves.
   const std::string exact = run({"denoise", dir_.write("exact.pcd", imageWith(0)), "--out", in("exact")}).out;
   EXPECT_TRUE(contains(exact, "0 moved") && contains(exact, "by the pixels of a depth image")) << exact;
-  // A build does the same by itself, asked or not.
+  // A build moves the same points, with and without --denoise.
   for (const std::vector<std::string>& asked :
        {std::vector<std::string>{}, {"--denoise"}, {"--denoise", "--preset", "clean"}}) {
     std::vector<std::string> command = {"laplacian", image, "--out", in("built")};
@@ -150,7 +150,7 @@ TEST_F(MovedPoints, DenoiseBringsPointsToTheSurface) {
     return std::sqrt(3 * sum / static_cast<double>(x.size()));
   };
   EXPECT_LT(off(values("clean/positions.npy")), 0.008);
-  // Commands that move points start there with --denoise: after a step of next to no time they are where they were.
+  // With --denoise commands that move points start from the denoised points: a tiny time step leaves them there.
   run({"smooth", scan, "--denoise", "--time-step", "1e-9", "--out", in("smooth")});
   const std::vector<double> clean = values("clean/positions.npy"), still = values("smooth/positions.npy");
   for (std::size_t i = 0; i < clean.size(); ++i) ASSERT_NEAR(still[i], clean[i], 1e-6) << i;
@@ -162,12 +162,12 @@ TEST_F(MovedPoints, DenoiseBringsPointsToTheSurface) {
   EXPECT_NE(ply.find("property float noise"), std::string::npos);
   EXPECT_EQ(ply.find("property double mass"), std::string::npos);
 
-  // Before a build: where lengths are measured is where the points are.
+  // In a build the denoised points are those between which lengths are measured.
   run({"laplacian", scan, "--denoise", "--out", in("built")});
   EXPECT_LT(off(values("built/measured_positions.npy")), 0.008);
   EXPECT_GT(report("built")["report"]["denoised"], 2900);
   EXPECT_NEAR(report("built")["report"]["noise"], 0.02, 0.004);
-  // Handles that stay do so there.
+  // Handles without a target stay at their denoised positions.
   dir_.write("stay.txt", "0\n100\n2000\n");
   run({"deform", scan, "--denoise", "--handles", in("stay.txt"), "--out", in("deform")});
   const std::vector<double> measured = values("built/measured_positions.npy"), kept = values("deform/positions.npy");
@@ -182,7 +182,7 @@ TEST_F(MovedPoints, DenoiseSaysThatThereIsNothingToDo) {
   EXPECT_NE(said.out.find("none that can be told"), std::string::npos) << said.out;
   EXPECT_EQ(report("same")["report"]["moved"], 0);
   expectRefusal({"denoise", open_}, "is a mesh; --as cloud takes its points alone", 1);
-  // It has no vertices to join: clouds alone are taken.
+  // denoise takes only clouds, which have no vertices to join.
   expectRefusal({"denoise", open_, "--weld"}, "unknown option `--weld`");
   EXPECT_FALSE(contains(runTufted({"denoise", "--help"}).out, "--weld"));
   expectRefusal({"laplacian", open_, "--denoise"}, "--denoise applies to point clouds");
@@ -216,7 +216,7 @@ TEST_F(MovedPoints, SmoothRefusesOptionsThatDoNotFit) {
 }
 
 TEST_F(MovedPoints, MinimalFlattensWithinAFlatRim) {
-  // Points slide within the surface, too, which the last line of the summary counts.
+  // The summary gives the last move off the surface; points also move within it.
   EXPECT_NE(run({"minimal", open_, "--out", in("soap")}).out.find("in the last one points left the surface by at most"),
             std::string::npos);
   EXPECT_LE(highest("soap/positions.npy"), 1e-3);
@@ -233,7 +233,7 @@ TEST_F(MovedPoints, MinimalFlattensWithinAFlatRim) {
 }
 
 TEST_F(MovedPoints, SignedDistanceIsPositiveToTheLeft) {
-  // Along y through the middle, so that -x is to the left from above, where the normals of the triangles point to.
+  // The curve runs along y through the middle. The normals point up, so -x is to its left.
   std::string along;
   for (int j = 0; j <= 8; ++j) along += std::to_string(4 * 9 + j) + "\n";
   dir_.write("curve.txt", along);

@@ -1,4 +1,4 @@
-// The subcommands normals and curvature, and who says where the sensor stood.
+// The subcommands normals and curvature, and the sources of the sensor's position.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -11,7 +11,7 @@ namespace {
 
 using Normals = Subcommands;
 
-/// The share of normals that point away from `place`, or from the origin.
+/// The share of normals that point away from the origin.
 double outward(const std::vector<double>& normals, const tufted::Points& points) {
   double count = 0;
   for (Eigen::Index i = 0; i < points.rows(); ++i)
@@ -27,7 +27,7 @@ TEST_F(Normals, PointOutwardsAndFaceTheSensorWhereItIsKnown) {
   EXPECT_EQ(report("out")["orientation"]["disagreeing_edges"], 0);
   EXPECT_NE(readAll(dir_ / "out/points.ply").find("property float nx\n"), std::string::npos);
 
-  // From the centre all face inwards.
+  // With the centre as viewpoint all face inwards.
   EXPECT_NE(run({"normals", file, "--viewpoint", "0,0,0", "--out", in("in")}).out.find("towards the sensor"),
             std::string::npos);
   EXPECT_EQ(outward(values("in/normals.npy"), points), 0);
@@ -35,7 +35,7 @@ TEST_F(Normals, PointOutwardsAndFaceTheSensorWhereItIsKnown) {
   run({"normals", file, "--viewpoint", "0,0,0", "--consistent", "--out", in("out")});
   EXPECT_EQ(outward(values("out/normals.npy"), points), 1);
 
-  // The folder remembers.
+  // The folder stores the orientation.
   run({"laplacian", file, "--viewpoint", "0,0,0", "--out", in("folder")});
   EXPECT_EQ(report("folder")["orientation"], "viewpoint");
   run({"normals", "--operator", in("folder"), "--out", in("in")});
@@ -97,8 +97,7 @@ TEST_F(Normals, DecideOnTheSignOfCurvature) {
   EXPECT_EQ(report("out")["report"]["undetermined"], 0);
   run({"curvature", file, "--viewpoint", "0,0,0", "--out", in("in")});
   const std::vector<double> inward = values("in/curvature.npy");
-  // Towards a viewpoint frames are those of the tangent planes, else they are fitted anew, and curvature hardly depends
-  // on which.
+  // Frames that face a viewpoint are those of the tangent planes, others are fitted anew; curvature hardly differs.
   for (int i = 0; i < 2000; ++i) EXPECT_NEAR(inward[4 * i], -outward[4 * i], 1e-6);
   run({"curvature", file, "--method", "laplacian", "--out", in("laplacian")});
   EXPECT_EQ(values("laplacian/curvature.npy").size(), 2000u);
@@ -127,7 +126,7 @@ TEST_F(Normals, RefuseWhatTheyCannotUse) {
   expectRefusal({"normals", mesh, "--viewpoint", "1,2,3"}, "--viewpoint applies to point clouds");
   run({"laplacian", file, "--out", in("folder")});
   expectRefusal({"normals", "--operator", in("folder"), "--viewpoint", "1,2,3"}, "--viewpoint");
-  // As an older version wrote it, and as none did.
+  // A report of an older version, and an invalid one.
   const auto change = [&](const std::string& from, const std::string& to) {
     std::string text = readAll(dir_ / "folder/report.json");
     text.replace(text.find(from), from.size(), to);

@@ -1,4 +1,4 @@
-// Results from a folder that `tufted laplacian` wrote are those from the file, bit for bit.
+// Results from a folder written by `tufted laplacian` are those from the file, bit for bit.
 #include <algorithm>
 #include <random>
 #include <sstream>

@@ -1,4 +1,4 @@
-// Where results go: known before the build to be writable, and then wholly old or wholly new whatever happens.
+// Results: the folder is checked before the build, and afterwards holds all old or all new files, whatever happens.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -26,15 +26,14 @@ class OutputOfCommands : public Subcommands {
   std::vector<std::string> build(int neighbors) const {
     return {"laplacian", cloud_, "--out", in("out"), "--neighbors", std::to_string(neighbors)};
   }
-  /// The results that `build` gives, without report.json, which holds times.
+  /// The results of `build`, without report.json, which contains times.
   Content resultsOf(int neighbors) {
     run(build(neighbors));
     Content content = contentOf(dir_ / "out");
     content.erase("report.json");
     return content;
   }
-  /// Expects the folder to hold the results for the one or for the other number of neighbours, and nothing else.
-  /// @returns that number
+  /// Expects the folder to hold the results for one of the numbers of neighbours and nothing else. Returns that number.
   int expectWhole(const std::map<int, Content>& results) {
     Content content = contentOf(dir_ / "out");
     const auto json = nlohmann::json::parse(content["report.json"], nullptr, false);
@@ -46,8 +45,8 @@ class OutputOfCommands : public Subcommands {
     return neighbors;
   }
 
-  /// What lies in the folder, where a process that was killed has left a hidden folder with what it had replaced: with
-  /// that in its place again. Without report.json.
+  /// The content of the folder without report.json, after files that a killed process replaced are put back from its
+  /// hidden folder.
   Content contentAfterKill() {
     Content content = contentOf(dir_ / "out");
     for (const auto& entry : fs::directory_iterator(dir_ / "out")) {
@@ -60,7 +59,7 @@ class OutputOfCommands : public Subcommands {
     return content;
   }
 
-  /// Expects that a folder has a report only where all files that this lists are of one result.
+  /// Expects the folder to have no report, or one whose files are all of one result.
   void expectWholeOrNoReport(const std::map<int, Content>& results) {
     if (!fs::exists(dir_ / "out/report.json")) return;
     const auto report = nlohmann::json::parse(readAll(dir_ / "out/report.json"));
@@ -83,7 +82,7 @@ TEST_F(OutputOfCommands, ThatCannotBeWrittenIsRefusedBeforeTheBuild) {
     const auto expectRefused = [&](const std::string& out, const std::string& named) {
       std::vector<std::string> arguments = command;
       arguments.push_back(out);
-      if (command[0] != "denoise") arguments.emplace_back("--normals");  // the file has none: a build fails by that
+      if (command[0] != "denoise") arguments.emplace_back("--normals");  // the file has none, so a build fails
       const Result result = runTufted(arguments);
       EXPECT_EQ(result.code, 1) << command[0];
       EXPECT_TRUE(isOneLine(result.err)) << result.err;
@@ -129,7 +128,7 @@ TEST_F(OutputOfCommands, IsAsItWasWhereTheDiskIsFull) {
   run({"laplacian", cloud_, "--out", out});
   const Content before = contentOf(out);
   const auto available = fs::space(disk.path()).available;
-  // Room for the first file, for all but the last, ...
+  // Leaves room for the first file only, ..., for all but the last.
   for (const int part : {1, 4, 7}) {
     std::uintmax_t size = 0;
     for (const auto& [name, bytes] : before) size += bytes.size();
@@ -149,12 +148,12 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewAfterASignal) {
   run(build(30));
   const auto whole = Clock::now() - start;
   int now = 30, cancelled = 0, done = 0;
-  // Sends the signal so long after the start or, with `writing`, after a hidden folder is seen beside the results.
+  // Sends the signal after `delay` from the start or, with `writing`, from when a hidden folder is seen.
   const auto interrupt = [&](int signal, Clock::duration delay, bool writing) {
     const int next = 42 - now;
     Process process = startTufted(build(next));
     const auto begun = Clock::now();
-    if (writing) {  // not that of the check, which comes at once
+    if (writing) {  // the hidden folder of the check comes at once and does not count
       std::this_thread::sleep_for(whole / 3);
       while (contentOf(dir_ / "out").size() == results[now].size() + 1 && Clock::now() < begun + 2 * whole) {
       }
@@ -163,7 +162,7 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewAfterASignal) {
     kill(process.pid(), signal);
     const int code = process.finish().code;
     const int found = expectWhole(results);
-    // Before the command has asked for them, signals end it as they do any process.
+    // Until the command catches signals, they end it like any process.
     EXPECT_TRUE(code == 0 ? found == next : (code == 130 || code == 128 + signal) && found == now) << code;
     ++(code == 0 ? done : cancelled);
     now = found;
@@ -179,7 +178,7 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewAfterASignal) {
 }
 
 TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewWhicheverStepFailsOrIsInterrupted) {
-  // Runs the command so that the n-th call of a kind fails, or a signal comes with it.
+  // Runs the command so that the n-th system call of a kind fails or raises a signal.
   const auto runWith = [&](const std::string& call, const std::string& fault, int n, std::vector<std::string> words) {
     std::vector<std::string> strace = {"strace", "-f", "-o", "/dev/null", "-e", "trace=" + call, "-e"};
     strace.push_back("inject=" + call + ":" + fault + ":when=" + std::to_string(n));
@@ -192,8 +191,8 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewWhicheverStepFailsOrIsInterrupted
   fs::rename(dir_ / "out", dir_ / "before");
   for (const std::string call : {"mkdir", "fsync", "linkat", "rename"}) {
     for (const std::string fault : {"error=EIO", "signal=SIGTERM", "signal=SIGKILL"}) {
-      int ended = 0;                                           // by the fault
-      for (int n = 1; n <= (call == "mkdir" ? 4 : 11); ++n) {  // about as many as there are
+      int ended = 0;                                           // runs ended by the fault
+      for (int n = 1; n <= (call == "mkdir" ? 4 : 11); ++n) {  // about the number of such calls
         fs::copy(dir_ / "before", dir_ / "out", fs::copy_options::recursive);
         std::vector<std::string> words = {tuftedCommand()};
         std::ranges::copy(build(12), std::back_inserter(words));
@@ -206,7 +205,7 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewWhicheverStepFailsOrIsInterrupted
         ended += code != 0;
         fs::remove_all(dir_ / "out");
       }
-      const bool is_survived = call == "linkat" && fault == "error=EIO";  // then the old files are renamed
+      const bool is_survived = call == "linkat" && fault == "error=EIO";  // then old files are renamed instead
       EXPECT_EQ(ended == 0, is_survived || (call != "mkdir" && call != "rename" && fault == "signal=SIGTERM"))
           << call << ' ' << fault;
     }

@@ -1,4 +1,4 @@
-// What a command writes never replaces what it reads, nor former results where it fails.
+// Output never replaces an input, and a command that fails never replaces earlier results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ TEST_F(Overwriting, ALookThatFailsLeavesFormerResultsAndNothingElse) {
     run(command);
     const auto before = everything();
     for (const Words& look : {Words{"--png", in("p.png")}, {"--view", in("v.html")}, {"--color", "mass"}}) {
-      if (look[0] == "--color" && command[0] == "denoise") continue;  // which builds nothing that has a mass
+      if (look[0] == "--color" && command[0] == "denoise") continue;  // it has no mass
       const Result result = runTufted(with(with(command, look), {"--column", "1000"}));
       EXPECT_EQ(result.code, 2) << command[0];
       EXPECT_TRUE(contains(result.err, "--column 1000: ")) << result.err;
@@ -48,7 +48,7 @@ TEST_F(Overwriting, ALookThatFailsLeavesFormerResultsAndNothingElse) {
 }
 
 TEST_F(Overwriting, AColumnIsRefusedBeforeTheBuildWhereItIsKnown) {
-  // The file has no normals, so that a build fails with --normals.
+  // The file has no normals, so a build fails with --normals.
   for (const Words& command : std::vector<Words>{{"distance", "--source", "0"},
                                                  {"distance", "--source", "0,1", "--matrix"},
                                                  {"laplacian"},
@@ -77,15 +77,15 @@ TEST_F(Overwriting, EveryFieldThatARefusalNamesIsShown) {
       run(with(command, {"--out", in("out"), "--color", name, "--png", in("p.png"), "--size", "40x30"}));
     }
     EXPECT_GT(count, 0) << command[0];
-    // And the first of them is what is seen without --color.
+    // Without --color the first of them is shown.
     run(with(command, {"--out", in("out"), "--png", in("p.png"), "--size", "40x30"}));
   }
 }
 
-/// A command with an input that is called INPUT.
+/// A command whose input is called INPUT.
 struct Reading {
   Words words;
-  std::string text;  ///< of the input
+  std::string text;  ///< content of the input
 };
 
 TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
@@ -142,7 +142,7 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       fs::remove(link);
       fs::remove(input);
     }
-    // Of --out the names that results have. Readers of points go by the ending, so those may only be in points.ply.
+    // Names of results in --out. Points can only be in points.ply, because readers go by the extension.
     dir_.write("input", reading.text);
     run(with(named(in("input")), {"--out", in("made")}));
     std::vector<std::string> names = {"points.ply"};
@@ -162,7 +162,7 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
     const auto place = std::find(reading.words.begin(), reading.words.end(), "INPUT");
     if (place - reading.words.begin() > 1) options.insert(*(place - 1));
   }
-  // Every option of any subcommand that names a file is among them.
+  // All options of all subcommands that name a file occur above.
   for (const Reading& reading : readings) {
     std::istringstream lines(runTufted({reading.words[0], "--help"}).out);
     for (std::string line; std::getline(lines, line);) {

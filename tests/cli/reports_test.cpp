@@ -1,4 +1,4 @@
-// What the subcommands that solve say of it, and how they are told by what method.
+// Reports of solves, and options for the method.
 #include <gtest/gtest.h>
 
 #include "subcommands.h"
@@ -8,7 +8,7 @@ namespace {
 
 class SolverOptionsOfCommands : public Subcommands {
  protected:
-  /// The command on a sphere of 500 points.
+  /// Arguments that run a command on a sphere of 500 points.
   std::vector<std::string> on(std::vector<std::string> arguments, const std::vector<std::string>& options) const {
     arguments.insert(arguments.end(), {"--operator", in("sphere")});
     arguments.insert(arguments.end(), options.begin(), options.end());

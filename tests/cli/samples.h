@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-// Contents of files, and what the tests of all subcommands ask.
+// Contents of files, and helpers for tests of the command.
 
 inline const char* const tetrahedron = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 

@@ -1,4 +1,4 @@
-// The subcommands that take functions on the points: poisson, filter; and embed.
+// The subcommands poisson and filter, which take functions on the points, and embed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 class SignalCommands : public Subcommands {
  protected:
-  /// Points of the unit sphere with the field f = z, and one that is not finite.
+  /// Points of the unit sphere with the field f = z, and a point that is not finite.
   std::string sphereWithField(int points) {
     std::istringstream lines(sphere(points));
     std::string text = "x y z f\n";
@@ -42,7 +42,7 @@ TEST_F(SignalCommands, PoissonSolvesForAFieldAsForAnArrayFromFileOrFolder) {
   ASSERT_EQ(u.size(), 1001u);
   EXPECT_TRUE(std::isnan(u[1000]));
   EXPECT_EQ(mean[1000], 0);
-  const double shift = std::accumulate(z.begin(), z.end(), 0.0) / 1000 / 2;  // next to the mean over the area
+  const double shift = std::accumulate(z.begin(), z.end(), 0.0) / 1000 / 2;  // close to the mean over the area
   for (int i = 0; i < 1000; ++i) {
     EXPECT_NEAR(u[i], z[i] / 2 - shift, 0.05) << i;
     EXPECT_EQ(mean[i], mean[0]);
@@ -55,7 +55,7 @@ TEST_F(SignalCommands, PoissonSolvesForAFieldAsForAnArrayFromFileOrFolder) {
   run({"poisson", "--operator", in("folder"), "--field", "f", "--out", in("read")});
   EXPECT_TRUE(readAll(dir_ / "read/u.npy") == readAll(dir_ / "field/u.npy"));
   std::vector<double> f = z;
-  f.push_back(NAN);  // of the point that takes no part
+  f.push_back(NAN);  // for the point that is not finite
   run({"poisson", file, "--values", npy("f.npy", "1001, ", f), "--out", in("array")});
   EXPECT_NEAR(values("array/u.npy")[500], u[500], 1e-6);  // the file has float text of six digits
 }
@@ -73,7 +73,7 @@ TEST_F(SignalCommands, PoissonTakesPins) {
 TEST_F(SignalCommands, FunctionsAreCheckedBeforeTheBuild) {
   const std::string file = sphereWithField(100);
   for (const std::string command : {"poisson", "filter"}) {
-    // A build with --normals fails, as the file has none.
+    // A build fails with --normals, because the file has none.
     expectRefusal({command, file, "--normals", "--field", "f"}, "--normals", 1);
     expectRefusal({command, file, "--normals"}, command == "filter" ? "exactly one of --field, --values and --positions"
                                                                     : "exactly one of --field and --values");
@@ -105,7 +105,7 @@ TEST_F(SignalCommands, FilterKeepsLongWavesAndTakesOutShortOnes) {
     std::vector<std::string> arguments = {"filter", file, "--values", array, "--out", in("out")};
     arguments.insert(arguments.end(), how.begin(), how.end());
     run(arguments);
-    EXPECT_EQ(report("out")["eigenvectors"], 8);  // of eigenvalues 2 and 6; waves of 4.4 and 2.6, the next of 1.8
+    EXPECT_EQ(report("out")["eigenvectors"], 8);  // of eigenvalues 2 and 6, waves of 4.4 and 2.6; the next is 1.8
     const std::vector<double> filtered = values("out/filtered.npy");
     ASSERT_EQ(filtered.size(), 2000u);
     for (int i = 0; i < 1000; ++i) {
@@ -120,7 +120,7 @@ TEST_F(SignalCommands, FilterKeepsLongWavesAndTakesOutShortOnes) {
 }
 
 TEST_F(SignalCommands, FilterMovesThePositions) {
-  // A sphere and a small one far off, whose own waves are all too short: its points meet in their mean.
+  // All waves of the second, small sphere are too short, so its points move to their mean.
   std::string points = sphere(1000);
   std::istringstream numbers(sphere(200));
   for (double x = 0, y = 0, z = 0; numbers >> x >> y >> z;)

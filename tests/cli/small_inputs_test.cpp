@@ -8,7 +8,7 @@ namespace {
 
 class SmallInputs : public Subcommands {
  protected:
-  /// Runs every subcommand that any surface is fit for with its defaults, and checks that results have numbers.
+  /// Runs with defaults every subcommand that works on any surface, and checks that results have numbers.
   void runAll(const std::string& file, bool is_open) {
     std::vector<std::vector<std::string>> all = commands;
     for (std::vector<std::string>& words : all)
@@ -25,7 +25,7 @@ class SmallInputs : public Subcommands {
                            {"deform", "--handles", dir_.write("targets.txt", "0 0 0 0\n1 1 1 1\n")}});
     if (is_open) all.insert(all.end(), {{"parameterize"}, {"parameterize", "--method", "harmonic"}, {"minimal"}});
     for (std::vector<std::string> words : all) {
-      if (words[0] == "denoise" && file.ends_with(".off")) continue;  // of clouds
+      if (words[0] == "denoise" && file.ends_with(".off")) continue;  // for clouds only
       words.insert(words.begin() + 1, file);
       words.insert(words.end(), {"--out", in("out")});
       std::string line;
@@ -76,7 +76,7 @@ TEST_F(SmallInputs, ADefaultCountIsThatOfWhatThereIs) {
     EXPECT_EQ(values("all/evals.npy").size(), 69u);
     EXPECT_EQ(values("all/evals.npy"), values("none/evals.npy"));
   }
-  // Of two components one positive eigenvalue is less there.
+  // Two components have one positive eigenvalue less.
   const std::string two = dir_.write("two.off",
                                      "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n9 0 0\n10 0 0\n9 1 0\n9 0 1\n"
                                      "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 4 6 5\n3 4 5 7\n3 5 6 7\n3 6 4 7\n");

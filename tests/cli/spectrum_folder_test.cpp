@@ -1,4 +1,4 @@
-// The eigenpairs of a former `tufted spectrum`, for the commands that need some.
+// Commands that read the eigenpairs of an earlier `tufted spectrum`.
 #include <algorithm>
 
 #include "subcommands.h"
@@ -36,7 +36,7 @@ TEST_F(SpectrumFolder, GivesTheSameBitsAsThePairsThatACommandFinds) {
     expectSame("computed/filtered.npy", "read/filtered.npy");
     EXPECT_EQ(report("read")["report"]["method"], "read");
   }
-  // The zeros that a folder lacks are added where they are wanted; thirteen pairs are a constant and twelve.
+  // Eigenvalues 0 that a folder lacks are added if needed: thirteen pairs are a constant and twelve others.
   run({"operators", file, "--count", "13", "--out", in("computed")});
   run({"operators", file, "--spectrum", in("pairs"), "--out", in("read")});
   expectSame("computed/points.ply", "read/points.ply");

@@ -1,4 +1,4 @@
-// The subcommands that use a Laplacian: where it comes from, and where results go.
+// Subcommands that use a Laplacian: its source, and where results go.
 #include <gtest/gtest.h>
 
 #include "subcommands.h"
@@ -41,7 +41,7 @@ TEST_F(SpectrumCommand, HasItsResidualsWhereMostOfTheSpaceIsAskedFor) {
 
 TEST_F(SpectrumCommand, TakesAFormerLaplacianAsItWouldBuildItself) {
   std::string points = sphere(400);
-  points += points.substr(0, points.find('\n') + 1) + "nan 0 0\n";  // a copy of the first, and one that is nowhere
+  points += points.substr(0, points.find('\n') + 1) + "nan 0 0\n";  // a copy of the first, and one not finite
   const std::string file = dir_.write("sphere.xyz", points);
   run({"spectrum", file, "--out", in("built"), "--count", "6"});
   const std::string evals = readAll(dir_ / "built/evals.npy"), evecs = readAll(dir_ / "built/evecs.npy");
@@ -72,7 +72,7 @@ TEST_F(SpectrumCommand, AFolderOfTwoRunsIsNotMixed) {
   expectRefusal({"spectrum", "--operator", in("both")}, "L.npz", 1);
   run({"laplacian", second, "--out", in("both"), "--format", "npz"});
   run({"spectrum", "--operator", in("both"), "--count", "3", "--out", in("out")});
-  EXPECT_FALSE(std::filesystem::exists(in("out/points.ply")));  // the points there are those of the first run
+  EXPECT_FALSE(std::filesystem::exists(in("out/points.ply")));  // the points in the folder are those of the first run
 }
 
 TEST_F(SpectrumCommand, ACopyOfACopyHasTheNewVectorsAlone) {
@@ -139,7 +139,7 @@ TEST_F(SpectrumCommand, BrokenPromisesInAFolderAreOneLineAndOne) {
   run({"laplacian", file, "--out", in("laplacian"), "--sign", "igl"});
   const std::string M = readAll(dir_ / "laplacian/M.npy");
   std::string negative = M, representative = readAll(dir_ / "laplacian/representative.npy");
-  negative[negative.size() - 1] = static_cast<char>(negative[negative.size() - 1] | 0x80);  // the sign
+  negative[negative.size() - 1] = static_cast<char>(negative[negative.size() - 1] | 0x80);  // sets the sign bit
   dir_.write("laplacian/M.npy", negative);
   expectRefusal({"spectrum", "--operator", in("laplacian")}, "M.npy: M(99) = -", 1);
   expectRefusal({"poisson", "--operator", in("laplacian"), "--field", "x"}, "M.npy: M(99) = -", 1);
@@ -198,7 +198,7 @@ TEST_F(SpectrumCommand, HksWritesSignaturesOfHeatAndOfWaves) {
   const std::vector<double> heat = values("times/hks.npy");
   ASSERT_EQ(heat.size(), 1500u);
   for (std::size_t i = 0; i < 500; ++i) {
-    EXPECT_NEAR(heat[3 * i + 2], 1 / (4 * M_PI), 0.01);  // one over the area, everywhere, when all is even
+    EXPECT_NEAR(heat[3 * i + 2], 1 / (4 * M_PI), 0.01);  // heat is constant in the end: one over the area
     EXPECT_GE(heat[3 * i], heat[3 * i + 1]);
   }
   run({"hks", file, "--out", in("wave"), "--count", "30", "--wave", "--format", "pcd"});

@@ -37,7 +37,7 @@ TEST_F(Structures, FindsNeighborsByTheStructureItIsTold) {
   const Result both = runTufted({"laplacian", image, "--out", out(), "--structure", "image", "--neighbors", "20"});
   EXPECT_EQ(both.code, 2);
   EXPECT_EQ(both.err, "tufted: --neighbors 20 excludes --structure image, which takes the pixels around a point\n");
-  // Ten rows at one depth are what a camera sees, but not from aside.
+  // A camera at the origin sees ten rows at one depth, a camera at another place does not.
   const std::string rays =
       "\nrays            of no pinhole camera at 1, 2, 0, the viewpoint of the file or 0 without one\n";
   std::string header = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 10\n";
@@ -93,9 +93,9 @@ TEST_F(Structures, TakesTheAzimuthsOfAFileInAnyUnit) {
            report.at("lost_points").get<int>();
   };
   const std::string radians = matrix(0, 2 * M_PI);
-  EXPECT_EQ(boundaryPoints(), 120);  // of the first and the last ring
+  EXPECT_EQ(boundaryPoints(), 120);  // the first and the last ring
   for (const double turn : {360.0, 36000.0, -360.0}) EXPECT_TRUE(matrix(0, turn) == radians) << turn;
-  // Seen from the origin, which is no place of this scanner, front and back of every ring lie in one direction.
+  // The origin is not where this scanner is: from there front and back of a ring are in one direction.
   matrix(4, 360);
   EXPECT_EQ(boundaryPoints(), 120);
   const Result result =
@@ -135,14 +135,14 @@ TEST_F(Structures, TheLengthOfTheQuaternionDoesNotMatter) {
     EXPECT_EQ(result.code, 0) << result.err;
     return readAll(dir_ / "out/L.npz");
   };
-  const std::string turned = matrix("1 1 0 0");  // a quarter turn, so that the rings stand upright
+  const std::string turned = matrix("1 1 0 0");  // a quarter turn, so that rings are upright
   EXPECT_FALSE(matrix("1 0 0 0") == turned);
   for (const char* quaternion : {"1e-200 1e-200 0 0", "1e200 1e200 0 0", "-3 -3 0 0"})
     EXPECT_TRUE(matrix(quaternion) == turned) << quaternion;
 }
 
 TEST_F(Structures, TakesTheAzimuthsOfAFileWhoseRingsItHasToFind) {
-  // The azimuths turn the other way and start elsewhere, which changes nothing, or are all one, which fits no scan.
+  // Azimuths in the other direction and from another zero change nothing; equal ones fit no scan.
   const auto file = [&](const std::string& azimuth, double slope) {
     std::string text = "VERSION .7\nFIELDS x y z " + azimuth + "\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n" +
                        "WIDTH 600\nHEIGHT 1\nPOINTS 600\nDATA ascii\n";

@@ -12,7 +12,7 @@
 #include "command.h"
 #include "samples.h"
 
-/// A command of each kind, without FILE and --out.
+/// A call of every subcommand that needs nothing but a cloud, without FILE and --out.
 inline const std::vector<std::vector<std::string>> commands = {
     {"laplacian", "--format", "npz,ply,pcd,mtx,mat,spmat,cover,triangles"},
     {"spectrum", "--count", "3"},
@@ -36,7 +36,7 @@ inline const std::vector<std::vector<std::string>> commands = {
     {"curvature"},
     {"operators", "--count", "3"}};
 
-/// Subcommands that use a Laplacian, in a folder of their own.
+/// Fixture for subcommands that use a Laplacian, with a temporary folder.
 class Subcommands : public testing::Test {
  protected:
   std::string in(const std::string& name) const { return (dir_ / name).string(); }
@@ -47,7 +47,7 @@ class Subcommands : public testing::Test {
     EXPECT_EQ(result.err, "");
     return result;
   }
-  /// Expects one line that has the word in it, the exit code and no output.
+  /// Expects an error of one line that contains the word, the exit code, and no output.
   void expectRefusal(std::vector<std::string> arguments, const std::string& word, int code = 2) {
     arguments.insert(arguments.end(), {"--out", in("refused")});
     const Result result = runTufted(arguments);
@@ -59,9 +59,9 @@ class Subcommands : public testing::Test {
   nlohmann::json report(const std::string& folder) const {
     return nlohmann::json::parse(readAll(dir_ / folder / "report.json"));
   }
-  /// Expects report.json to say how the results were found, how well and how fast.
-  /// @param method that the name of the solver's begins with
-  /// @param iterates whether that takes iterations
+  /// Expects report.json to have method, accuracy and time of the solve.
+  /// @param method beginning of the solver's name
+  /// @param iterates whether iterations are expected
   void expectReport(const std::string& folder, const std::string& method, bool iterates) const {
     const nlohmann::json made = report(folder)["report"];
     const nlohmann::json solver = made.value("solver", made);
@@ -69,11 +69,11 @@ class Subcommands : public testing::Test {
     EXPECT_GT(solver.value("seconds", 0.0), 0) << folder << made;
     ASSERT_TRUE(made["iterations"].is_number_integer()) << folder << made;
     EXPECT_EQ(made["iterations"] > 0, iterates) << folder << made;
-    ASSERT_TRUE(made["residual"].is_number()) << folder << made;  // NaN is null
+    ASSERT_TRUE(made["residual"].is_number()) << folder << made;  // JSON has null for NaN
     EXPECT_LE(made["residual"], 1e-8) << folder << made;
     EXPECT_GT(made["seconds"], 0) << folder << made;
   }
-  /// The values of a .npy file, of doubles or of another type that is named.
+  /// The values of a .npy file of type T.
   template <class T = double>
   std::vector<T> values(const std::string& file) const {
     const std::string bytes = readAll(dir_ / file);

@@ -1,4 +1,4 @@
-// Points that the user names and which take no part: left out with a warning, or refused, and why.
+// Points that the user names but that take no part: they are left out with a warning, or refused.
 #include <cmath>
 
 #include "subcommands.h"
@@ -21,7 +21,7 @@ class NamedPoints : public Subcommands {
                           text);
   }
 
-  /// Runs the command, expects a warning with the reason, and the point in the report.
+  /// Runs the command, and expects a warning with the reason, and the point in the report.
   void expectLeftOut(std::vector<std::string> arguments, const std::string& count, const std::string& why) {
     arguments.insert(arguments.end(), {"--out", in("out")});
     const Result result = runTufted(arguments);

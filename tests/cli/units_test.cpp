@@ -10,8 +10,8 @@ namespace {
 
 class Units : public Subcommands {
  protected:
-  /// Expects a command to be refused on the unit sphere and on the folder of its Laplacian, with the word and both
-  /// figures: the diagonal of the box is near 2 sqrt(3), and the spacing near the root of the area per point, 0.11.
+  /// Expects a command to be refused on the unit sphere and on the folder of its Laplacian, with the word, a size near
+  /// 2 sqrt(3), the diagonal of the box, and a spacing near 0.11, the root of the area per point.
   void expectBothRefused(const std::vector<std::string>& command, const std::string& word) {
     for (const std::vector<std::string>& source : {std::vector<std::string>{cloud_}, {"--operator", in("folder")}}) {
       std::vector<std::string> arguments = command;

@@ -1,4 +1,4 @@
-// `tufted validate`: what it says of clouds without a surface and of what `tufted laplacian` has written.
+// `tufted validate` on clouds without a surface, and on folders written by `tufted laplacian`.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -74,7 +74,7 @@ TEST_F(ValidateResults, TakesALaplacianThatWasWritten) {
               linesOf(table.out)[2].find("  " + folder) != std::string::npos)
       << table.out;
 
-  // Point 300, which is not finite, becomes active; then there is no such array.
+  // Point 300, which is not finite, becomes active; then the array is missing.
   std::string status = readAll(dir_ / "laplacian/status.npy");
   status.back() = 0;
   dir_.write("laplacian/status.npy", status);

@@ -18,14 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// The files of a run, as its JSON names them.
+/// The files in the JSON of a run.
 std::vector<std::string> filesOf(const json& document) {
   std::vector<std::string> files;
   for (const json& row : document["files"]) files.push_back(row["file"]);
   return files;
 }
 
-/// The processes that validate `file`.
+/// The processes that are validating `file`.
 std::vector<pid_t> workersOn(const std::string& file) {
   std::vector<pid_t> workers;
   for (const auto& process : fs::directory_iterator("/proc")) {
@@ -37,7 +37,7 @@ std::vector<pid_t> workersOn(const std::string& file) {
   return workers;
 }
 
-/// Waits up to ten seconds until there are workers on `file`, or none any more.
+/// Waits up to ten seconds until some or no processes are validating `file`.
 std::vector<pid_t> awaitWorkers(const std::string& file, bool some) {
   for (int i = 0; i < 1000; ++i) {
     std::vector<pid_t> workers = workersOn(file);
@@ -48,7 +48,7 @@ std::vector<pid_t> awaitWorkers(const std::string& file, bool some) {
   return {};
 }
 
-/// Processor time that a process has used, in clock ticks.
+/// CPU time of a process in clock ticks.
 int ticksOf(pid_t process) {
   const std::string text = readAll("/proc/" + std::to_string(process) + "/stat");
   std::istringstream fields(text.substr(text.rfind(')') + 1));
@@ -59,7 +59,7 @@ int ticksOf(pid_t process) {
   return ticks;
 }
 
-/// Waits up to ten seconds until `process` has used that much processor time.
+/// Waits up to ten seconds until a process has used this CPU time.
 void awaitTicks(pid_t process, int ticks) {
   for (int i = 0; i < 10000 && ticksOf(process) < ticks; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
@@ -67,7 +67,7 @@ void awaitTicks(pid_t process, int ticks) {
 class Validate : public testing::Test {
  protected:
   std::string writeTetrahedron(const std::string& name = "good.off") const { return dir_.write(name, tetrahedron); }
-  /// One that takes long enough to be interrupted.
+  /// Writes a file that takes long enough to be interrupted.
   std::string writeLarge() const { return dir_.write("large.xyz", sphere(200000)); }
 
   TemporaryDir dir_;
@@ -106,7 +106,7 @@ TEST_F(Validate, AFolderThatCannotBeListedIsRefusedAndTheOthersGoOn) {
   const std::string first = writeTetrahedron("a.off"), last = writeTetrahedron("c.off");
   fs::permissions(dir_ / "b", fs::perms::none);
   std::vector<std::string> words = {tuftedCommand(), "validate", "--json", dir_.path()};
-  if (geteuid() == 0)  // whom no permissions stop
+  if (geteuid() == 0)  // permissions do not stop root
     words.insert(words.begin(), {"setpriv", "--inh-caps", "-all", "--bounding-set", "-all", "--"});
   const Result result = runProgram(words);
   fs::permissions(dir_ / "b", fs::perms::owner_all);
@@ -183,7 +183,7 @@ TEST_F(Validate, TheMemoryOfAFileIsNotThatOfTheCommand) {
   const std::string first = writeTetrahedron();
   fs::create_directory(dir_ / "many");
   for (int i = 0; i < 300; ++i) dir_.write("many/" + std::to_string(i) + ".off", "");
-  const auto memoryOfFirst = [&](int times) {  // in the table, with so many files to come
+  const auto memoryOfFirst = [&](int times) {  // memory in the first row of a table of many files
     std::vector<std::string> words = {"sh", "-c", R"("$0" validate "$@" | head -n 2 | tail -n 1)", tuftedCommand(),
                                       first};
     words.insert(words.end(), times, (dir_ / "many").string());
@@ -228,16 +228,16 @@ TEST_F(Validate, AFileThatNeedsTooMuchMemoryFailsAndTheOthersDoNot) {
 TEST_F(Validate, ACrashIsNamedAndTheOthersGoOn) {
   const std::string large = writeLarge(), good = writeTetrahedron();
   Process tufted = startTufted({"validate", "--jobs", "1", large, good});
-  for (const pid_t worker : awaitWorkers(large, true)) kill(worker, SIGABRT);  // a sanitizer takes SIGSEGV itself
+  for (const pid_t worker : awaitWorkers(large, true)) kill(worker, SIGABRT);  // sanitizers handle SIGSEGV themselves
   const Result result = tufted.finish();
   EXPECT_EQ(result.code, 1);
   EXPECT_TRUE(contains(result.out, large + ": its process was ended by signal 6 (Aborted)")) << result.out;
   EXPECT_TRUE(contains(result.out, "\n2 files: 1 OK, 0 REFUSED, 1 FAILED, ")) << result.out;
 }
 
-TEST_F(Validate, AWorkerThatIsAskedToEndDoesSo) {  // as daemons do that watch over the memory
+TEST_F(Validate, AWorkerThatIsAskedToEndDoesSo) {  // as by daemons that watch memory
   const std::string large = writeLarge();
-  for (const int ticks : {0, 2, 10}) {  // as it starts, and while it works
+  for (const int ticks : {0, 2, 10}) {  // while it starts, and while it works
     Process tufted = startTufted({"validate", large});
     for (const pid_t worker : awaitWorkers(large, true)) {
       awaitTicks(worker, ticks);
@@ -253,8 +253,8 @@ TEST_F(Validate, NoWorkerOutlivesTheCommand) {
   Process tufted = startTufted({"validate", large});
   const std::vector<pid_t> workers = awaitWorkers(large, true);
   ASSERT_EQ(workers.size(), 1u);
-  awaitTicks(workers[0], 100);  // sanitizers need 20 to load the program, which has asked for nothing by then
-  kill(workers[0], SIGSTOP);    // it would not end by itself any more
+  awaitTicks(workers[0], 100);  // more than the 20 that loading takes with sanitizers
+  kill(workers[0], SIGSTOP);    // so that it does not end by itself
   kill(tufted.pid(), SIGKILL);
   tufted.finish();
   awaitWorkers(large, false);

@@ -12,7 +12,7 @@ namespace {
 
 class View : public Subcommands {
  protected:
-  /// Width and height of a whole PNG file.
+  /// Width and height of a PNG file, which must be complete.
   std::pair<int, int> sizeOf(const std::string& name) const {
     const std::string bytes = readAll(dir_ / name);
     EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n") << name;
@@ -31,7 +31,7 @@ class View : public Subcommands {
   }
   bool exists(const std::string& name) const { return std::filesystem::exists(dir_ / name); }
 
-  /// A sphere whose points have a value.
+  /// A sphere with a field.
   std::string warmSphere() const {
     std::string text =
         "ply\nformat ascii 1.0\nelement vertex 200\nproperty float x\nproperty float y\nproperty float z\n"
@@ -49,7 +49,7 @@ TEST_F(View, EverySubcommandShowsItsResult) {
   int number = 0;
   for (std::vector<std::string> arguments : commands) {
     const std::string name = std::to_string(number++) + arguments[0];
-    std::replace(arguments.begin(), arguments.end(), std::string("x"), std::string("heat"));  // poisson's field
+    std::replace(arguments.begin(), arguments.end(), std::string("x"), std::string("heat"));  // the field for poisson
     arguments.insert(arguments.end(), {cloud_, "--out", in(name), "--png", in(name + ".png"), "--view",
                                        in(name + ".html"), "--size", "200x150"});
     const Result result = run(arguments);
@@ -66,7 +66,7 @@ TEST_F(View, OfAPathShowsIt) {
        in("path.html"), "--size", size});
   EXPECT_TRUE(contains(readAll(dir_ / "path.html"), "\"path\":"));
   run({"distance", mesh_, "--source", "1", "--out", in("distance"), "--png", in("distance.png"), "--size", size});
-  EXPECT_NE(readAll(dir_ / "path.png"), readAll(dir_ / "distance.png"));  // without a title, so small
+  EXPECT_NE(readAll(dir_ / "path.png"), readAll(dir_ / "distance.png"));  // too small for a title
   run({"view", in("path"), "--out", in("again.html"), "--png", in("again.png"), "--size", size, "--color", "distance"});
   EXPECT_TRUE(contains(readAll(dir_ / "again.html"), "\"path\":"));
 }
@@ -166,7 +166,7 @@ TEST_F(View, PicturesMayLieInTheFolderThatResultsMake) {
 TEST_F(View, PicturesGoWhereLinksLeadAndNeverReplaceAPipe) {
   const std::filesystem::path target = dir_.write("kept.png", "old");
   std::filesystem::create_symlink("kept.png", dir_ / "link.png");
-  std::filesystem::create_symlink(dir_ / "new.html", dir_ / "link.html");  // leads to nothing yet
+  std::filesystem::create_symlink(dir_ / "new.html", dir_ / "link.html");  // its target does not exist yet
   run({"view", cloud_, "--png", in("link.png"), "--out", in("link.html"), "--size", "40x30"});
   EXPECT_EQ(sizeOf("kept.png"), (std::pair{40, 30}));
   expectPage("new.html");

@@ -1,4 +1,4 @@
-// Meshes whose vertices --weld joins: every subcommand takes the file's indices and gives the file's rows.
+// Meshes with --weld: every subcommand takes indices of the file, and its results have the file's rows.
 #include <array>
 #include <set>
 
@@ -8,7 +8,7 @@ namespace weld_test {
 namespace {
 
 TEST_F(Subcommands, WithWeldAllIndicesAndRowsAreThoseOfTheFile) {
-  // A bent square of 25 places, of which every triangle has three vertices of its own, the last triangle first.
+  // A bent square of 25 positions; each triangle has three vertices of its own, and the last triangle comes first.
   std::string vertices, faces;
   int corners = 0;
   for (int j = 3; j >= 0; --j)
@@ -28,7 +28,7 @@ TEST_F(Subcommands, WithWeldAllIndicesAndRowsAreThoseOfTheFile) {
   const std::set<std::string> not_per_point = {"evals.npy",    "path.npy",  "frames.npy",         "times.npy",
                                                "energies.npy", "noise.npy", "component_edges.npy"};
   for (std::vector<std::string> command : commands) {
-    if (command[0] == "denoise") continue;  // of clouds
+    if (command[0] == "denoise") continue;  // for clouds only
     command.insert(command.end(), {mesh, "--weld", "--out", in("out")});
     std::filesystem::remove_all(in("out"));
     run(command);
@@ -41,7 +41,7 @@ TEST_F(Subcommands, WithWeldAllIndicesAndRowsAreThoseOfTheFile) {
       EXPECT_TRUE(contains(readAll(points), "element vertex 96")) << command[0];
     }
   }
-  // The place (1, 0) has the vertices 84, 91 and 93, (0, 0) has 90 alone, and (4, 4) has 4 alone.
+  // Vertices 84, 91 and 93 are at (1, 0), only 90 at (0, 0), and only 4 at (4, 4).
   run({"path", mesh, "--weld", "--from", "93", "--to", "4", "--out", in("path")});
   run({"path", mesh, "--weld", "--from", "91", "--to", "4", "--out", in("same")});
   EXPECT_EQ(readAll(dir_ / "path/path.npy"), readAll(dir_ / "same/path.npy"));

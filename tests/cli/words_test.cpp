@@ -1,4 +1,4 @@
-// A word that the command does not know is named, with the one that was probably meant.
+// Errors name an unknown word, and the one that was probably meant.
 #include <gtest/gtest.h>
 
 #include "subcommands.h"
@@ -8,7 +8,7 @@ namespace {
 
 class Words : public Subcommands {
  protected:
-  /// Expects a usage error of this one line, behind "tufted: ".
+  /// Expects a usage error of this line after "tufted: ".
   void expectSaid(const std::vector<std::string>& arguments, const std::string& line) {
     const Result result = runTufted(arguments);
     EXPECT_EQ(result.code, 2);

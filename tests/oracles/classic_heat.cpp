@@ -35,13 +35,13 @@ VectorXd classicHeatDistances(const Points& points, const Triangles& triangles, 
       gradient += u[triangles(f, k)] * unit.cross(corners.row((k + 2) % 3) - corners.row((k + 1) % 3));
     }
     if (!(gradient.norm() > 0)) continue;
-    // The integral of X times the gradient of a hat function; the factor of the area cancels.
+    // The integral of X times the gradient of a hat function, in which the area cancels.
     for (int k = 0; k < 3; ++k) {
       divergence[triangles(f, k)] -=
           gradient.normalized().dot(unit.cross(corners.row((k + 2) % 3) - corners.row((k + 1) % 3))) / 2;
     }
   }
-  // Grounded at the source, which loses no other solution up to a constant.
+  // The solution is determined up to a constant, so it is pinned to 0 at the source.
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     if (grounded.coeff(i, i) == 0) grounded.coeffRef(i, i) = 1;
   }

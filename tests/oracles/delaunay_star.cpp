@@ -24,7 +24,7 @@ PlanarStar delaunayStarOracle(const Eigen::Matrix<double, Eigen::Dynamic, 2, Eig
   star.closed = true;
   const auto first = delaunay.incident_faces(origin);
   auto face = first;
-  // An open star is listed from the gap on: the infinite faces follow each other.
+  // An open star is listed from its gap on, where infinite faces follow each other.
   do {
     if (delaunay.is_infinite(face)) star.closed = false;
   } while (++face != first);

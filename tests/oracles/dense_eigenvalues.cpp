@@ -7,7 +7,7 @@
 namespace tufted::oracles {
 namespace {
 
-/// The active points that have mass, or have none.
+/// The active points with mass, or those without.
 std::vector<int> pointsWhere(const SparseMatrix& L, const VectorXd& M, bool with_mass) {
   std::vector<int> points;
   for (int i = 0; i < M.size(); ++i)

@@ -20,8 +20,8 @@ SparseMatrix shifted(const SparseMatrix& L, const VectorXd& M, double shift) {
   return matrix;
 }
 
-// y -> M^1/2 (L - shift M)^-1 M^1/2 y without the directions already found; symmetric, eigenvalues 1/(lambda - shift).
-// Works with zero masses, unlike M^-1/2 L M^-1/2.
+// y -> M^1/2 (L - shift M)^-1 M^1/2 y, orthogonal to the eigenvectors already found: symmetric, with the eigenvalues
+// 1 / (lambda - shift). Unlike M^-1/2 L M^-1/2 it allows masses of 0.
 class InvertedOperator {
  public:
   using Scalar = double;
@@ -45,7 +45,7 @@ class InvertedOperator {
   const Eigen::MatrixXd& found_;
 };
 
-// How many eigenvalues lie below the bound: the negative pivots of L - bound M (Sylvester's law of inertia).
+// The number of eigenvalues below a bound: that of negative pivots of L - bound M (Sylvester's law of inertia).
 Eigen::Index countBelow(const SparseMatrix& L, const VectorXd& M, double bound) {
   const Factor factor(shifted(L, M, bound));
   return (factor.vectorD().array() < 0).count();
@@ -78,8 +78,8 @@ class Problem {
     found_ = vectors(Eigen::all, order);
   }
 
-  // Eigenvalues missing among the first k: those below a bound in the widest gap behind the k-th, or behind all that
-  // were found if there is no gap. Rounding decides where equal eigenvalues end, so the bound keeps off them.
+  // The number of eigenvalues missing among the first k. Counts those below a bound in the widest gap after the k-th,
+  // or after all that were found if there is no gap, so that the bound is not close to an eigenvalue.
   Eigen::Index missing(Eigen::Index k) const {
     const double margin = 1e-6 * (values_[values_.size() - 1] + 1 / M_.sum());
     Eigen::Index below = values_.size();
@@ -97,7 +97,7 @@ class Problem {
     Spectrum spectrum{values_.head(k), Eigen::MatrixXd(L_.rows(), k)};
     const double scale = std::max(std::abs(values_[k - 1]), 1 / M_.sum());
     for (Eigen::Index i = 0; i < k; ++i) {
-      // y = M^1/2 x; one more solve gives x where the mass is zero, too.
+      // y = M^1/2 x; one more solve gives x also where the mass is 0.
       VectorXd x = factor_.solve(root_mass_.cwiseProduct(found_.col(i)));
       x /= std::sqrt(x.dot(M_.cwiseProduct(x)));
       const VectorXd residual = L_ * x - values_[i] * M_.cwiseProduct(x);
@@ -118,7 +118,7 @@ class Problem {
   double shift_;
   Factor factor_;
   VectorXd values_;
-  Eigen::MatrixXd found_;  // columns y = M^1/2 x, orthonormal
+  Eigen::MatrixXd found_;  // orthonormal columns y = M^1/2 x
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using Real = long double;
 
-/// Side k of a face lies across from its corner k.
+/// Side k of a face is opposite its corner k.
 struct Side {
   int face = -1, k = 0;
   bool operator==(const Side&) const = default;
@@ -25,7 +25,7 @@ struct Face {
   std::array<Side, 3> across;
 
   int next(int k) const { return (k + 1) % 3; }
-  /// By Kahan's formula.
+  /// The area by Kahan's formula.
   Real area() const {
     auto [a, b, c] = length;
     if (a < b) std::swap(a, b);
@@ -91,7 +91,7 @@ class Flipper {
   Side& at(const Side& side) { return faces_[side.face].across[side.k]; }
   Real cotangent(const Side& side) const { return faces_[side.face].cotangent(side.k); }
 
-  /// Faces p u v and q v u become p u q and q v p.
+  /// Replaces the faces p u v and q v u by p u q and q v p.
   void flip(const Side& side, const Side& other) {
     const Face one = faces_[side.face], two = faces_[other.face];
     const int i = side.k, i1 = one.next(i), i2 = one.next(i1), j = other.k, j1 = two.next(j), j2 = two.next(j1);
@@ -103,7 +103,7 @@ class Flipper {
     const int p = one.corner[i], u = one.corner[i1], v = one.corner[i2], q = two.corner[j];
     faces_[side.face] = {{p, u, q}, {two.length[j1], crossing, one.length[i2]}, {}};
     faces_[other.face] = {{q, v, p}, {one.length[i1], crossing, two.length[j2]}, {}};
-    // Where the four outer sides are now; two of them may be glued to each other.
+    // Old and new places of the four outer sides, two of which may be glued to each other.
     const int f = side.face, g = other.face;
     const std::array<std::pair<Side, Side>, 4> moved = {
         {{{g, j1}, {f, 0}}, {{f, i2}, {f, 2}}, {{f, i1}, {g, 0}}, {{g, j2}, {g, 2}}}};
@@ -123,7 +123,7 @@ class Flipper {
   }
 
   std::vector<Face> faces_;
-  std::deque<Side> waiting_;  ///< first in, first out; a face's sides change, so some are looked at twice
+  std::deque<Side> waiting_;  ///< sides to examine, some of them twice, because sides of faces change
 };
 
 }  // namespace

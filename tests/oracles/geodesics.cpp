@@ -18,7 +18,7 @@ std::optional<VectorXd> exactDistances(const Points& points, const Triangles& tr
   using ShortestPath = CGAL::Surface_mesh_shortest_path<CGAL::Surface_mesh_shortest_path_traits<Kernel, Mesh>>;
   namespace processing = CGAL::Polygon_mesh_processing;
 
-  // Without vertices of no triangle, which the search does not expect.
+  // Vertices of no triangle are left out, because the search does not accept them.
   std::vector<int> number(points.rows(), -1), input_index;
   std::vector<Kernel::Point_3> corners;
   std::vector<std::array<std::size_t, 3>> soup;
@@ -36,13 +36,13 @@ std::optional<VectorXd> exactDistances(const Points& points, const Triangles& tr
     soup.push_back(polygon);
   }
   const std::size_t vertices = corners.size();
-  // Orienting doubles the vertices of what is no manifold.
+  // Orienting duplicates vertices if the triangles are no manifold.
   if (!processing::orient_polygon_soup(corners, soup) || corners.size() != vertices) return std::nullopt;
   if (!processing::is_polygon_soup_a_polygon_mesh(soup)) return std::nullopt;
   Mesh mesh;
   processing::polygon_soup_to_polygon_mesh(corners, soup, mesh);
 
-  // Weights go by the corners from the source of the face's halfedge on, which is not where ours begins.
+  // CGAL's weights begin at the source of the face's halfedge, which need not be our first corner.
   const auto source = *(mesh.faces_begin() + face);
   const auto side = mesh.halfedge(source);
   const std::array<Mesh::Vertex_index, 3> around = {mesh.source(side), mesh.target(side), mesh.target(mesh.next(side))};

@@ -7,10 +7,9 @@
 
 namespace tufted::oracles {
 
-/// Exact distances along the triangles from one point of them (CGAL::Surface_mesh_shortest_path), N values; NaN at
-/// vertices of no triangle and in other components.
+/// Exact distances along the triangles from a point on them (CGAL::Surface_mesh_shortest_path).
 /// @param face,barycentric the source
-/// @returns nothing where the triangles are no orientable manifold, which CGAL needs
+/// @return N, NaN at vertices of no triangle and on other components; nullopt if no orientable manifold is given
 std::optional<VectorXd> exactDistances(const Points& points, const Triangles& triangles, int face,
                                        const std::array<double, 3>& barycentric);
 

@@ -22,7 +22,7 @@ Triangles convexHullMesh(const Points& points) {
   CGAL::Surface_mesh<Point> hull;
   CGAL::convex_hull_3(input.begin(), input.end(), hull);
 
-  // CGAL's order of faces depends on where memory lies, and results of a mesh on that of its triangles.
+  // CGAL's order of faces depends on addresses of memory, and results depend on the order of triangles.
   std::vector<std::array<int, 3>> sorted;
   for (const auto face : hull.faces()) {
     std::array<int, 3> corners;

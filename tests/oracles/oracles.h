@@ -5,64 +5,64 @@
 
 #include "tufted/types.h"
 
-/// Answers from other people's code, or from the simplest code there is, to compare the library with. Tests only.
+/// Results of other libraries, or of the simplest code possible, to compare the library with. For tests only.
 namespace tufted::oracles {
 
-/// Convex hull as triangles over the rows of `points`, outwards (CGAL::convex_hull_3). For points on a convex surface
-/// it is their intrinsic Delaunay triangulation up to second order.
+/// Convex hull as triangles of points, oriented outwards (CGAL::convex_hull_3). For points on a convex surface it is
+/// their intrinsic Delaunay triangulation up to second order.
 Triangles convexHullMesh(const Points& points);
 
 struct Operators {
   SparseMatrix L;
   VectorXd M;
 };
-/// The plain cotan matrix (negative weights kept) and a third of the area per corner. Triangles without area are
-/// skipped.
+/// The plain cotan matrix, with negative weights, and a third of the triangles' areas per corner. Triangles without
+/// area are skipped.
 Operators cotanLaplacian(const Points& points, const Triangles& triangles);
 
-/// The cotan matrix and areas after plain intrinsic flips: one edge after the other, first in, first out, with no end
-/// but that all are Delaunay, in long doubles. Without lengthening, so triangles must have areas at the end.
-/// @param triangles closed, oriented and manifold; else std::runtime_error is thrown
+/// The cotan matrix and areas after intrinsic flips in long double, one edge after the other until all are Delaunay.
+/// There is no mollification, so triangles must have areas in the end.
+/// @param triangles closed, oriented and manifold
+/// @throws std::runtime_error if they are not
 Operators flippedLaplacian(const Points& points, const Triangles& triangles);
 
 struct Spectrum {
   VectorXd values;          ///< ascending
   Eigen::MatrixXd vectors;  ///< N x k, M-orthonormal; zero on inactive points
 };
-/// The k smallest eigenvalues of L x = lambda M x by shift and invert with Spectra. Rows with L = 0 and M = 0 do not
-/// take part. The number below the largest one is checked by Sylvester's law, so no multiple eigenvalue is missed;
-/// residuals are checked too, and std::runtime_error tells when a check fails.
+/// The k smallest eigenvalues of L x = lambda M x by shift-and-invert with Spectra. Points with empty rows in L and no
+/// mass are left out. Sylvester's law checks that none is missing.
+/// @throws std::runtime_error if an eigenvalue is missing or a residual is too large
 Spectrum smallestEigenpairs(const SparseMatrix& L, const VectorXd& M, int k);
 VectorXd smallestEigenvalues(const SparseMatrix& L, const VectorXd& M, int k);
 
 enum class Precision { usual, extended };
-/// All eigenvalues of L x = lambda M x by dense matrices of doubles or of long doubles, ascending. Points without mass
-/// are eliminated; rows with L = 0 and M = 0 do not take part.
+/// All eigenvalues of L x = lambda M x, ascending, by dense matrices of double or long double. Points without mass are
+/// eliminated; those with empty rows in L and no mass are left out.
 VectorXd denseEigenvalues(const SparseMatrix& L, const VectorXd& M, Precision precision = Precision::usual);
 
-/// Mean of |computed - analytic| / analytic over the first min(sizes) values, analytic zeros left out.
+/// Mean of |computed - analytic| / analytic over as many first values as both have, without analytic zeros.
 double meanRelativeError(const VectorXd& computed, const VectorXd& analytic);
 
 struct PlanarStar {
-  std::vector<std::array<int, 2>> triangles;  ///< (i, j): the triangle origin, row i, row j; in order, counterclockwise
-  bool closed = false;                        ///< the origin is not on the convex hull
+  std::vector<std::array<int, 2>> triangles;  ///< (i, j): the triangle of the origin and rows i and j; counterclockwise
+  bool closed = false;                        ///< whether the origin is inside of the convex hull
 };
-/// Star of the origin in the Delaunay triangulation of the origin and the rows of `points` (CGAL). Rows that equal the
-/// origin or an earlier row do not occur.
+/// The star of the origin in the Delaunay triangulation of the origin and `points` (CGAL), without rows that equal the
+/// origin or an earlier row.
 PlanarStar delaunayStarOracle(const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>& points);
 
 struct Topology {
-  int components = 0;            ///< of the triangles, connected through vertices
+  int components = 0;            ///< sets of triangles connected by vertices
   int boundary_edges = 0;        ///< edges of one triangle
-  int nonmanifold_edges = 0;     ///< edges of three or more
-  int nonmanifold_vertices = 0;  ///< several fans of triangles
-  bool orientable = true;        ///< at the edges of two triangles
+  int nonmanifold_edges = 0;     ///< edges of three or more triangles
+  int nonmanifold_vertices = 0;  ///< vertices around which triangles form several fans
+  bool orientable = true;        ///< whether triangles can be oriented consistently across edges of two
   int euler = 0;                 ///< referenced vertices - edges + triangles
 };
 /// Triangles with a repeated vertex are left out.
 Topology topology(const Triangles& triangles);
 
-/// Sum of the triangles' areas.
 double surfaceArea(const Points& points, const Triangles& triangles);
 
 }  // namespace tufted::oracles

@@ -33,7 +33,7 @@ TEST(Hull, OfSpherePointsIsATriangulatedSphere) {
   }
 }
 
-// Second order: the error falls by four when the number of points grows by four.
+// The error is of second order: it falls by four when the number of points grows by four.
 TEST(Eigenvalues, OfTheHullConvergeToTheSphere) {
   for (const auto& [n, expected] : {std::pair(1000, 4.2e-2), std::pair(4000, 1.0e-2), std::pair(16000, 2.5e-3)}) {
     const shapes::Cloud cloud = shapes::sphere(n);
@@ -52,7 +52,7 @@ TEST(Eigenvalues, OfMeshesConvergeToTheirTruth) {
   }
 }
 
-// The cube's spectrum is a table; its numeric entries are checked to second order, by Richardson's rule.
+// The numeric entries of the cube's table are compared with a Richardson extrapolation of second order.
 TEST(Eigenvalues, OfTheCubeExtrapolateToItsTable) {
   const auto values = [](int n) {
     const shapes::Mesh mesh = shapes::cubeQuads(n);
@@ -75,7 +75,7 @@ TEST(Eigenvalues, AreMOrthonormalAndSolveTheProblem) {
   EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-8);
 }
 
-// Exactly multiple eigenvalues are what Krylov methods miss: six equal components.
+// Six equal components have multiple eigenvalues, of which Krylov methods miss some.
 TEST(Eigenvalues, OfEqualComponentsAreAllFound) {
   const shapes::Mesh one = shapes::gridSquare(8);
   constexpr int copies = 6;
@@ -153,7 +153,7 @@ TEST(DelaunayStar, OfCollinearPointsIsEmpty) {
 
 TEST(ExactDistances, AreStraightOnAPlane) {
   const shapes::Mesh square = shapes::gridSquare(12);
-  // Three different weights, so that no corner can be mistaken for another.
+  // Different weights, so that confused corners are detected.
   const std::array<double, 3> weights = {0.7, 0.2, 0.1};
   for (const int face : {0, 77}) {
     Eigen::RowVector3d source = Eigen::RowVector3d::Zero();

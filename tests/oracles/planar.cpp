@@ -18,7 +18,7 @@ Triangles stretchedDelaunay(const Points& points, double stretch) {
   for (int f = 0; f < hull.rows(); ++f) {
     const Eigen::RowVector3d a = lifted.row(hull(f, 0));
     const Eigen::RowVector3d u = lifted.row(hull(f, 1)) - a, v = lifted.row(hull(f, 2)) - a;
-    // Facing down, and seen from above not a line: the hull closes over the points of a straight border.
+    // Keeps lower faces. Vertical ones, with which the hull closes along a straight border, are dropped.
     const double area = u.x() * v.y() - u.y() * v.x();
     if (area < -1e-12) kept.push_back(f);
   }
@@ -53,7 +53,7 @@ ObtusePins pinsAtObtuseCorners(const PlanarMesh& mesh) {
 
 Book badBook(int pages, int n, double stretch, std::uint64_t seed) {
   shapes::Random random(seed);
-  const int inner = n * n / 2, border = n + 1 + 2 * (n / 2);  // the far side, and half as many points above and below
+  const int inner = n * n / 2, border = n + 1 + 2 * (n / 2);  // n + 1 points opposite the spine, n / 2 above and below
   Book book;
   const int total = n + 1 + pages * (inner + border);
   book.points = Points::Zero(total, 3);

@@ -23,7 +23,7 @@ class UnionFind {
 
 struct Use {
   std::size_t face;
-  bool rising;  // the face runs from the smaller to the larger vertex
+  bool rising;  // whether the face runs from the smaller to the larger vertex
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ std::vector<Cloud> allClouds(int size) {
     clouds.push_back(withNoise(torus(n), noise));
     clouds.push_back(withNoise(cubeSurface(n), noise));
   }
-  // Whole steps of azimuth: 5 at least, so that a ring goes round.
+  // At least 5 steps of azimuth, so that rings go around the scanner.
   for (const int rings : {16, 64}) {
     const double step = 360.0 / std::max(5, n / rings);
     clouds.push_back(lidar({.rings = rings, .azimuth_step = step}));

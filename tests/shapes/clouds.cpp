@@ -15,7 +15,7 @@
 namespace tufted::shapes {
 namespace {
 
-// Flat patches given by triangles; used where a surface is not one patch of rows.
+// Samples flat patches given by triangles, for surfaces that are not one patch of rows.
 Cloud sampleSolid(const Mesh& mesh, const std::string& shape, int n, const std::vector<int>& face_of_triangle,
                   std::uint64_t seed) {
   Cloud cloud = sampleMesh(mesh, n, seed);

@@ -25,7 +25,7 @@ bool same(const Points& a, const Points& b) {
   return a.rows() == b.rows() && (a.array() == b.array() || (a.array().isNaN() && b.array().isNaN())).all();
 }
 
-// Signed residual of the surface's equation; 0 on the surface.
+// Signed residual of a surface's equation; 0 on the surface.
 double offSurface(const std::string& shape, const RowVector3d& p) {
   const double x = p.x(), y = p.y(), z = p.z();
   if (shape == "sphere") return p.norm() - 1;
@@ -41,7 +41,7 @@ double offSurface(const std::string& shape, const RowVector3d& p) {
     const double side = std::sqrt(0.75) * x - 0.5 * y, other = std::sqrt(0.75) * (1 - x) - 0.5 * y;
     return std::min({z, 1.5 - z, y, side, other});
   }
-  return 0;  // rooms have a test of their own
+  return 0;  // rooms are tested in scanners_test.cpp
 }
 
 class EveryCloud : public testing::TestWithParam<int> {
@@ -149,7 +149,7 @@ TEST(Clouds, UniformSamplingIsUniformPerArea) {
   const Cloud s = saddle(n);
   double inverse = 0;
   for (Eigen::Index i = 0; i < n; ++i) inverse += s.normals(i, 2);
-  EXPECT_NEAR(s.area * inverse / n, 4, 2e-2);  // the area of its shadow
+  EXPECT_NEAR(s.area * inverse / n, 4, 2e-2);  // the area of its projection
   const Cloud e = ellipsoid(n);
   double volume = 0;
   for (Eigen::Index i = 0; i < n; ++i) volume += e.points.row(i).dot(e.normals.row(i));
@@ -276,7 +276,7 @@ TEST(Spectra, MatchKnownValues) {
   EXPECT_NEAR(std::sqrt(disk[5]), 3.83170597, 1e-7);
   // Weyl's law with the boundary's term holds for the counting function.
   EXPECT_NEAR(disk[99] / 4 + std::sqrt(disk[99]) / 2, 100, 4);
-  // A thin torus is a circle times a circle.
+  // The first eigenvalues of a thin torus are those of a circle.
   const VectorXd torus = torusSpectrum(1, 1e-3, 5);
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(torus[i], ((i + 1) / 2) * ((i + 1) / 2), 1e-5);
   // Two pages are one rectangle of twice the width.

@@ -12,8 +12,9 @@ struct Level {
   int multiplicity;
 };
 
-// The multiples of pi^2 are exact: functions that every face continues by reflection. The others are extrapolated from
-// cotan Laplacians of 32 to 108 squares per edge; the corners, cones of angle 3/2 pi, add a term in h^(8/3) to h^2.
+// The multiples of pi^2 are exact, of functions that continue across edges by reflection. The others are extrapolated
+// from cotan Laplacians of 32 to 108 squares per edge, with terms in h^2 and, due to the corners, cones of angle 3/2
+// pi, in h^(8/3).
 constexpr double pi2 = std::numbers::pi * std::numbers::pi;
 constexpr Level levels[] = {
     {0, 1},        {4.166087, 3}, {11.499176, 3}, {14.136125, 2}, {2 * pi2, 1},  {25.712097, 3}, {26.483317, 3},

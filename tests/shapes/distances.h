@@ -7,7 +7,7 @@
 
 #include "tufted/types.h"
 
-/// How far points lie off the shapes of shapes.h.
+/// Distances of points from the shapes of shapes.h.
 namespace tufted::shapes {
 
 /// The distance of a position from a surface, negative on one side.
@@ -26,7 +26,6 @@ inline double toCube(const Eigen::RowVector3d& x) {
   return std::min(0.0, out.maxCoeff()) + out.max(0.0).matrix().norm();
 }
 
-/// The root of the mean squared distance.
 inline double rmsDistance(const Points& points, const SurfaceDistance& distance) {
   double sum = 0;
   for (Eigen::Index i = 0; i < points.rows(); ++i) sum += std::pow(distance(points.row(i)), 2);

@@ -14,21 +14,21 @@ namespace tufted::shapes {
 class MeshBuilder {
  public:
   int add(const Eigen::Vector3d& point);
-  /// The index of an earlier point of this function within 1e-9, or a new one.
+  /// Returns the index of a point that this function added within 1e-9, or adds a new one.
   int weld(const Eigen::Vector3d& point);
   void triangle(int a, int b, int c) { triangles_.push_back({a, b, c}); }
-  /// A polygon and its fan triangulation.
+  /// Adds a polygon and its fan triangulation.
   void polygon(std::vector<int> corners);
-  /// columns x rows cells of two triangles each; vertex(i, j) names the corners.
+  /// Adds columns x rows cells of two triangles each, with the corners vertex(i, j).
   void grid(int columns, int rows, const std::function<int(int, int)>& vertex);
-  /// Triangles between two rows of points that run the same way, the second one to the left of the first.
+  /// Adds triangles between two rows of points in the same direction, the second one to the left of the first.
   void strip(const std::vector<int>& right, const std::vector<int>& left, Quality quality);
-  /// Quadrilaterals between two rows of points as in strip(), and a triangle where the left row is shorter.
+  /// Adds quadrilaterals between two rows of points as in strip(), and a triangle if the left row is shorter.
   void stripPolygons(const std::vector<int>& right, const std::vector<int>& left);
   /// Adds another mesh, moved by `offset`.
   void append(const Mesh& mesh, const Eigen::Vector3d& offset);
 
-  /// Points, triangles and polygons; the caller fills in the truth.
+  /// The mesh, without what is known of its shape, which the caller adds.
   Mesh finish(const std::string& shape) const;
 
  private:

@@ -38,7 +38,7 @@ void insertTriangle(Mesh& mesh, Eigen::Index at, int a, int b, int c) {
   mesh.triangles.bottomRows(after) = rest;
 }
 
-// Midpoint rule with central differences; good to some 1e-6.
+// Area by the midpoint rule with central differences, accurate to about 1e-6.
 double parametricArea(const Parametrization& at, double u_span, double v_low, double v_high) {
   constexpr int steps = 400;
   constexpr double h = 1e-5;
@@ -162,7 +162,7 @@ Mesh kleinBottle(int n) {
     return Vector3d((2 + x) * std::cos(u), (2 + x) * std::sin(u), z);
   };
   MeshBuilder builder;
-  // Half a step off v = 0 and v = pi, where the surface crosses itself. After a turn v has become -v.
+  // Half a step away from v = 0 and v = pi, where the surface crosses itself. After a turn v becomes -v.
   for (int i = 0; i < 2 * n; ++i) {
     for (int j = 0; j < n; ++j) builder.add(at(pi * i / n, 2 * pi * (j + 0.5) / n));
   }
@@ -179,7 +179,7 @@ Mesh slivers(int n) {
   const Eigen::Index points = mesh.points.rows();
   mesh.points.conservativeResize(points + n, 3);
   for (int i = 0; i < n; ++i) {
-    // The triangle above the i-th edge of the middle row is split at a point just off that edge.
+    // Splits the triangle above the i-th edge of the middle row at a point very close to that edge.
     const Eigen::Index face = 2 * (n / 2 * n + i);
     const Eigen::RowVector3i corner = mesh.triangles.row(face);
     const int middle = static_cast<int>(points) + i;

@@ -20,7 +20,7 @@ double Random::normal() {
     has_spare_ = false;
     return spare_;
   }
-  // Box-Muller. Mathematical libraries differ in the last bits of log and cos; rounding hides that.
+  // Box-Muller method, rounded because mathematical libraries differ in the last bits of log and cos.
   const auto rounded = [](double x) { return std::nearbyint(x * 0x1p36) * 0x1p-36; };
   const double radius = std::sqrt(-2 * std::log(1 - uniform()));
   const double angle = 2 * std::numbers::pi * uniform();

@@ -6,8 +6,8 @@
 
 namespace tufted::shapes {
 
-/// Seeded random numbers that are the same with every standard library: the engine's output is fixed by the standard,
-/// the conversions below by us (std::uniform_real_distribution and its kin are not).
+/// Seeded random numbers that are the same with every standard library. The standard defines the output of the engine,
+/// but not that of its distributions, so these are our own.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -15,7 +15,7 @@ struct Parameters {
 };
 using Places = std::vector<Parameters>;
 
-// The density at row t by that of the densest row; 16^-sin^2 is smooth on closed and open surfaces.
+// The density at row t relative to that of the densest row; 16^-sin^2 is smooth on closed and open surfaces.
 double densityAt(const Surface& surface, const Sampling& sampling, double t) {
   if (sampling.kind == Sampling::Kind::nonuniform) {
     return std::exp2(-4 * std::pow(std::sin(std::numbers::pi * t / surface.span), 2));
@@ -23,7 +23,7 @@ double densityAt(const Surface& surface, const Sampling& sampling, double t) {
   return sampling.kind == Sampling::Kind::density_step && t > surface.span / 2 ? 1 / sampling.density_ratio : 1;
 }
 
-// Independent points by rejection.
+// Adds independent points by rejection sampling.
 void addRandom(const Surface& surface, int n, const Sampling& sampling, Random& random, Places& places) {
   for (int found = 0; found < n;) {
     const double t = surface.span * random.uniform();
@@ -35,7 +35,7 @@ void addRandom(const Surface& surface, int n, const Sampling& sampling, Random& 
   }
 }
 
-// Rows of one length of step, taken as one long line with n equal steps; so there are exactly n points.
+// Adds exactly n points: rows are joined to one long line, which is divided into n equal steps.
 void addRows(const Surface& surface, int n, double anisotropy, double jitter, Random& random, Places& places) {
   const double step = std::sqrt(surface.area / (n * anisotropy));
   const int rows = std::max(1, static_cast<int>(std::lround(surface.span / (anisotropy * step))));

@@ -27,7 +27,7 @@ struct Panel {
   RoomSurface surface;
 };
 
-// The room in the scanner's frame: the scanner stands off the centre so that no two walls look alike.
+// The room in the scanner's frame. The scanner is not in the centre, so that the distances of all walls differ.
 const Vector3d room_low(-9, -6, -1.8), room_high(11, 9, 2.2);
 const Vector3d box_low(3, -3, -1.8), box_high(5, -1, -0.3);
 constexpr double pole_x = -2.5, pole_y = 3, pole_radius = 0.2;
@@ -63,7 +63,7 @@ Hit castRay(const Vector3d& direction) {
     hit = {range, panel.surface, Vector3d::Zero()};
     hit.normal[panel.axis] = direction[panel.axis] > 0 ? -1 : 1;
   }
-  // The pole, from floor to ceiling: |range d - c| = radius in the plane.
+  // The pole reaches from floor to ceiling: |range d - c| = radius in the plane.
   const double dd = direction.x() * direction.x() + direction.y() * direction.y();
   const double dc = direction.x() * pole_x + direction.y() * pole_y;
   const double cc = pole_x * pole_x + pole_y * pole_y - pole_radius * pole_radius;
@@ -98,7 +98,7 @@ double visibleArea(double low, double high) {
   return area;
 }
 
-// The lowest and the highest ring of common scanners of so many rings, rad.
+// Elevations of the lowest and the highest ring of common scanners with this many rings, rad.
 std::pair<double, double> elevations(int rings) {
   if (rings == 16) return {-15 * degree, 15 * degree};
   if (rings == 32) return {-30.67 * degree, 10.67 * degree};
@@ -164,7 +164,7 @@ bool crossesJump(const Vector3d& a, const Vector3d& b) {
 }
 
 Cloud depthCamera(const DepthCameraOptions& options, std::uint64_t seed) {
-  // Looks past the box into the room's corner, 20 degrees down; the camera's axes in the room's frame.
+  // The camera's axes in the room's frame: it looks past the box into a corner, 20 degrees down.
   const double yaw = -25 * degree, pitch = -20 * degree;
   const Vector3d forward = beam(yaw, pitch), right(std::sin(yaw), -std::cos(yaw), 0), down = forward.cross(right);
   Eigen::Matrix3d to_camera;
@@ -179,7 +179,7 @@ Cloud depthCamera(const DepthCameraOptions& options, std::uint64_t seed) {
   for (int i = 0; i < options.width * options.height; ++i) {
     const double u = (i % options.width - (options.width - 1) / 2.0) / focal;
     const double v = (i / options.width - (options.height - 1) / 2.0) / focal;
-    const Vector3d direction = forward + u * right + v * down;  // depth 1, so the range is the depth
+    const Vector3d direction = forward + u * right + v * down;  // has depth 1, so its factor is the depth
     const Hit hit = castRay(direction);
     const double step = options.depth_step;
     const double depth = step > 0 ? std::round(hit.range / step) * step : hit.range;

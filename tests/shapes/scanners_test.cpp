@@ -10,7 +10,7 @@ namespace {
 
 using enum RoomSurface;
 
-// Residual of the labelled surface's equation, in the LiDAR's frame.
+// Residual of the equation of the surface with a label, in the scanner's frame.
 double offRoom(int label, const Eigen::RowVector3d& p) {
   switch (RoomSurface(label)) {
     case floor:
@@ -88,7 +88,7 @@ TEST(Scanners, LidarNoiseRunsAlongTheBeam) {
 }
 
 TEST(Scanners, LidarAreaIsThatOfTheSurfacesSeen) {
-  // 16 rings see a band of the walls, less what box and pole hide, and rings of floor and ceiling.
+  // 16 rings see a band of the walls without what box and pole hide, and parts of floor and ceiling.
   const double walls = 2 * (20 + 15) * 4;
   const Cloud cloud = lidar({.rings = 16, .azimuth_step = 1});
   EXPECT_GT(cloud.area, walls);
@@ -108,7 +108,7 @@ TEST(Scanners, LidarStartsAtItsFirstAzimuth) {
   EXPECT_NEAR(std::atan2(cloud.points(3, 1), cloud.points(3, 0)), 3.25 * 2 * std::atan(1.0) / 45, 1e-12);
 }
 
-// Four by three rays onto the plane z = 0, and one column of rays onto another one.
+// Four by three rays on the plane z = 0, of which one column is on another plane.
 Cloud smallScan() {
   Cloud scan{.points = Points::Zero(12, 3), .labels = std::vector<int>(12, 0), .width = 4, .height = 3};
   for (int i = 0; i < 12; ++i) scan.points.row(i) << i % 4, i / 4, 0;
@@ -118,9 +118,9 @@ Cloud smallScan() {
 TEST(ScanTruth, AreaIsThatOfTheTrianglesOnOneSurface) {
   Cloud scan = smallScan();
   EXPECT_DOUBLE_EQ(scanTruth(scan, false).area, 6);
-  scan.labels[5] = 1;  // the corner of four cells, which keep the triangle of their other corners
+  scan.labels[5] = 1;  // a corner of four cells, each of which keeps the triangle of its other corners
   EXPECT_DOUBLE_EQ(scanTruth(scan, false).area, 4);
-  scan.labels[6] = 1;  // two cells now have two corners on either surface
+  scan.labels[6] = 1;  // two cells now have two corners on each surface
   EXPECT_DOUBLE_EQ(scanTruth(scan, false).area, 2);
 }
 
@@ -147,7 +147,7 @@ TEST(ScanTruth, InnerRaysHaveEightNeighboursOnTheirSurface) {
 }
 
 TEST(ScanTruth, OfALidarRoomIsNearlyTheAreaSeen) {
-  // 64 rings leave no more than the strips between surfaces, and between rays of grazing incidence, unseen.
+  // Only strips between surfaces, and between rays of grazing incidence, are missing.
   const Cloud cloud = lidar({.rings = 64, .azimuth_step = 0.5});
   const ScanTruth truth = scanTruth(cloud, true);
   EXPECT_LT(truth.area, cloud.area);
@@ -165,7 +165,7 @@ TEST(Scanners, AJumpIsWhereTheScannerSeesPastAnEdge) {
 }
 
 TEST(Scanners, AnImageJumpsWhereNoSlantExplainsIt) {
-  // One row of pixels; the depths of all, 0: sees nothing.
+  // The image is one row of pixels with these depths; 0: missing.
   const auto jumps = [](const std::vector<double>& depths) {
     Cloud image;
     image.width = static_cast<int>(depths.size());
@@ -177,11 +177,11 @@ TEST(Scanners, AnImageJumpsWhereNoSlantExplainsIt) {
     EXPECT_EQ(there, jumpsBetween(image, image.width - 1, 0));
     return there;
   };
-  EXPECT_FALSE(jumps({1, 1.02, 1.04, 1.06, 1.08}));  // a slant of 5.5 degrees
+  EXPECT_FALSE(jumps({1, 1.02, 1.04, 1.06, 1.08}));  // a surface seen at 5.5 degrees
   EXPECT_TRUE(jumps({1, 1, 1, 1.08, 1.08}));
-  EXPECT_FALSE(jumps({1, 0, 0, 0, 1.08}));  // a slant may hide here
-  EXPECT_TRUE(jumps({1, 0, 0, 0, 1.1}));    // but not here
-  EXPECT_TRUE(jumps({1, 1, 0.5, 1, 1}));    // something in front
+  EXPECT_FALSE(jumps({1, 0, 0, 0, 1.08}));  // missing pixels may be a slanted surface
+  EXPECT_TRUE(jumps({1, 0, 0, 0, 1.1}));    // too steep for a surface
+  EXPECT_TRUE(jumps({1, 1, 0.5, 1, 1}));    // a body in front
   EXPECT_FALSE(jumps({1}));
 }
 

@@ -8,11 +8,11 @@
 #include "tufted/types.h"
 
 /// All fixtures of the tests and all checked-in datasets, with what is known about them analytically. Lengths have no
-/// unit, except metres in the scans. The same arguments give the same points.
+/// unit, except for scans, which are in metres. The same arguments give the same points.
 namespace tufted::shapes {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-/// The number of eigenvalues that are listed where they are known.
+/// The number of eigenvalues that a fixture lists if they are known.
 inline constexpr int known_eigenvalues = 100;
 
 struct Cloud {
@@ -22,15 +22,15 @@ struct Cloud {
   std::uint64_t seed = 0;
   double noise = 0;           ///< standard deviation per coordinate (scans: along the beam)
   Points points{};            ///< NaN where a scanner saw nothing
-  Points normals{};           ///< of the surface without noise; scans: towards the scanner
-  double area = unknown;      ///< of the surface
-  int components = 1;         ///< of the surface
-  bool boundary = false;      ///< the surface has one
+  Points normals{};           ///< normals of the surface without noise; of scans towards the scanner
+  double area = unknown;      ///< area of the surface
+  int components = 1;         ///< connected components of the surface
+  bool boundary = false;      ///< whether the surface has a boundary
   VectorXd eigenvalues{};     ///< ascending, zeros included; empty: unknown
-  std::vector<int> labels{};  ///< which sheet, face or wall, -1: an outlier; empty: all one
-  int rim_points = 0;         ///< so many first points lie exactly on the boundary
-  int outliers = 0;           ///< so many last points do not belong to the surface
-  int width = 0, height = 0;  ///< of an organized cloud, row-major; 0: not organized
+  std::vector<int> labels{};  ///< sheet, face or wall of each point, -1: an outlier; empty: all the same
+  int rim_points = 0;         ///< this many first points lie exactly on the boundary
+  int outliers = 0;           ///< this many last points are not on the surface
+  int width = 0, height = 0;  ///< size of an organized cloud, row-major; 0: not organized
 };
 
 struct Mesh {
@@ -38,31 +38,31 @@ struct Mesh {
   std::string shape{};
   Points points{};
   Triangles triangles{};
-  Polygons polygons{};           ///< of a polygon mesh, whose fan triangulation `triangles` is; otherwise empty
-  double area = unknown;         ///< of the shape; the triangles sum to it exactly if `flat`, in the limit otherwise
-  bool flat = true;              ///< the triangles lie on the shape
-  int components = 1;            ///< of the triangles, connected through vertices
+  Polygons polygons{};           ///< faces of a polygon mesh, whose fan triangulation is `triangles`; otherwise empty
+  double area = unknown;         ///< area of the shape; that of the triangles if `flat`, otherwise their limit
+  bool flat = true;              ///< whether the triangles lie on the shape
+  int components = 1;            ///< sets of triangles connected by vertices
   int boundary_edges = 0;        ///< edges of one triangle
   int nonmanifold_edges = 0;     ///< edges of three or more triangles
-  int nonmanifold_vertices = 0;  ///< vertices where the triangles, connected through edges, form several fans
-  bool orientable = true;        ///< at the edges of two triangles
+  int nonmanifold_vertices = 0;  ///< vertices around which triangles form several fans
+  bool orientable = true;        ///< whether triangles can be oriented consistently across edges of two
   int euler = 0;           ///< referenced vertices - edges + triangles, of the triangles with three different corners
   VectorXd eigenvalues{};  ///< ascending, zeros included; empty: unknown
 };
 
-/// How points are spread over a surface.
+/// How points are distributed over a surface.
 struct Sampling {
   enum class Kind { uniform, jittered, lattice, nonuniform, scan_lines, density_step };
   Kind kind;
-  double anisotropy;         ///< distance of lines by distance along a line
-  double density_ratio = 1;  ///< points per area on both sides of a step, one by the other
+  double anisotropy;         ///< distance between lines over distance along a line
+  double density_ratio = 1;  ///< ratio of the densities on both sides of a step
 
-  static const Sampling uniform;     ///< independent, equal probability per area
+  static const Sampling uniform;     ///< independent, uniform per area
   static const Sampling jittered;    ///< one point per cell of a grid, moved by up to 0.35 cells
   static const Sampling lattice;     ///< rows of equal steps; gives about n points
   static const Sampling nonuniform;  ///< independent, density varies smoothly by a factor of 16
   static constexpr Sampling scanLines(double anisotropy) { return {Kind::scan_lines, anisotropy}; }
-  /// Independent; the second half of the rows is sparser by `ratio` >= 1 than the first.
+  /// Independent; the density of the second half of the rows is less by the factor `ratio` >= 1.
   static constexpr Sampling densityStep(double ratio) { return {Kind::density_step, 1, ratio}; }
 };
 inline constexpr Sampling Sampling::uniform{Kind::uniform, 1};
@@ -70,7 +70,7 @@ inline constexpr Sampling Sampling::jittered{Kind::jittered, 1};
 inline constexpr Sampling Sampling::lattice{Kind::lattice, 1};
 inline constexpr Sampling Sampling::nonuniform{Kind::nonuniform, 1};
 
-/// Whether a surface with boundary has points exactly on it, in equal steps (they are the first ones of the cloud).
+/// Whether there are points exactly on the boundary, in equal steps; they are the first ones of the cloud.
 enum class Rim { none, included };
 
 // Clouds ---------------------------------------------------------------------------------------------------------
@@ -85,8 +85,8 @@ Cloud torus(int n, Sampling sampling = Sampling::uniform, std::uint64_t seed = 1
 Cloud cylinderPatch(int n, Sampling sampling = Sampling::uniform, Rim rim = Rim::included, std::uint64_t seed = 1);
 /// z = (x^2 - y^2)/2 over [-1, 1]^2.
 Cloud saddle(int n, Sampling sampling = Sampling::uniform, Rim rim = Rim::none, std::uint64_t seed = 1);
-/// side x side points of the plane z = 0 at multiples of `spacing`, row by row; nothing is rounded if spacing has few
-/// bits. The area is that of the square between the outermost points.
+/// side x side points of the plane z = 0 at multiples of `spacing`, row by row; exact if spacing has few bits. The area
+/// is that of the square between the outermost points.
 Cloud squareLattice(int side = 60, double spacing = 0.015625);
 /// Unit squares z = 0 and z = distance; labels 0, 1.
 Cloud twoSheets(int n, double distance, std::uint64_t seed = 1);
@@ -96,20 +96,20 @@ Cloud crossingPlanes(int n, std::uint64_t seed = 1);
 Cloud cubeSurface(int n, std::uint64_t seed = 1);   ///< [0, 1]^3; labels 0..5
 Cloud prismSurface(int n, std::uint64_t seed = 1);  ///< the solid of prismMesh; labels 0..4
 
-/// Two spheres of 1000 points each, far apart: of radius 1, and of the given one.
+/// Two spheres of 1000 points each, far apart, of radius 1 and `radius`.
 Points twoSpheres(double radius);
 
-/// Distance on the unit sphere from one of its points to all, n.
+/// Distances on the unit sphere from one of its n points to all.
 VectorXd sphereDistances(const Points& points, int from);
 
 /// Isotropic Gaussian noise of standard deviation sigma; 0.01 is 1 % of the radius of the unit shapes.
 Cloud withNoise(Cloud cloud, double sigma, std::uint64_t seed = 1);
-/// Where outliers lie, points that do not belong to the surface.
+/// Where outliers lie.
 enum class Outliers {
   near,  ///< 2 to 6 spacings off the surface along its normal, on either side; a spacing is sqrt(area / points)
   far,   ///< anywhere in the surface's bounding box, enlarged by half about its centre; their normals are zero
 };
-/// Adds `share` times as many outliers as there are points, as last points.
+/// Appends `share` times as many outliers as there are points.
 Cloud withOutliers(Cloud cloud, Outliers where, double share, std::uint64_t seed = 1);
 /// The points of a cloud in random order.
 Cloud shuffled(Cloud cloud, std::uint64_t seed = 1);
@@ -118,7 +118,7 @@ Cloud sampleMesh(const Mesh& mesh, int n, std::uint64_t seed = 1);
 
 // Scans of a room of 20 x 15 x 4 m with a box and a pole in it -----------------------------------------------------
 
-/// What a beam can hit, as labels of the scans.
+/// Surfaces that a beam can hit, the labels of scans.
 enum class RoomSurface : int {
   floor,
   ceiling,
@@ -137,31 +137,31 @@ enum class RoomSurface : int {
 struct LidarOptions {
   int rings = 16;             ///< 16: -15 to 15 degrees; 32: -30.67 to 10.67 degrees; others: -24.8 to 2 degrees
   double azimuth_step = 0.4;  ///< degrees; divides 360
-  double first_azimuth = 0;   ///< in steps
+  double first_azimuth = 0;   ///< azimuth of the first column, in steps
   double noise = 0;           ///< standard deviation of the range, m
 };
-/// Organized: width = steps of azimuth, height = rings from the lowest. Scanner at the origin, floor at z = -1.8. The
-/// area is that of everything seen between the outermost rings.
+/// Scanner at the origin, floor at z = -1.8. Organized: a column per step of azimuth, a row per ring from the lowest.
+/// The area is that of everything seen between the outermost rings.
 Cloud lidar(const LidarOptions& options = {}, std::uint64_t seed = 1);
 
-/// What the rays of a scan without noise know of the surfaces, for judging a noisy one by the same rays.
+/// Facts about a scan without noise, for judging a noisy scan with the same rays.
 struct ScanTruth {
-  double area = 0;                  ///< of the triangles between neighbouring rays that hit one surface
-  int surfaces = 0;                 ///< pieces of surfaces, connected through neighbouring rays of a row or column
-  std::vector<std::uint8_t> inner;  ///< N; 1 where a ray and the eight around it hit one surface
+  double area = 0;                  ///< area of triangles between neighbouring rays that hit one surface
+  int surfaces = 0;                 ///< pieces of surfaces, connected by neighbouring rays of a row or column
+  std::vector<std::uint8_t> inner;  ///< N; 1 if a ray and the eight around it hit one surface
 };
 /// @param scan organized, labelled, all points finite
-/// @param goes_round the last column is a neighbour of the first, as in lidar()
+/// @param goes_round whether the last column is a neighbour of the first, as in lidar()
 ScanTruth scanTruth(const Cloud& scan, bool goes_round);
 
-/// Whether what the scanner of lidar() sees between two directions breaks off anywhere and goes on at another distance:
-/// at the edge of something that stands in front of something else, not where two surfaces meet.
+/// Whether the range that the scanner of lidar() sees jumps between two directions: at the edge of one body in front of
+/// another, not where two surfaces meet.
 /// @param a,b points in the scanner's frame, less than 180 degrees apart
 bool crossesJump(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-/// Whether a depth image breaks off between two of its pixels and goes on at another depth: on the straight way from
-/// one to the other there is a step of more than a twentieth of the depth, from pixel to pixel or over pixels that see
-/// nothing, and steeper than a surface can be seen at: less than 5 degrees off the sight.
+/// Whether a depth image jumps between two of its pixels: on the straight line between them there is a step of more
+/// than a twentieth of the depth, between adjacent pixels or across missing ones, that is too steep for a surface, less
+/// than 5 degrees from the line of sight.
 /// @param image organized, seen from the origin along z
 /// @param a,b indices of finite points
 bool jumpsBetween(const Cloud& image, int a, int b);
@@ -169,35 +169,35 @@ bool jumpsBetween(const Cloud& image, int a, int b);
 struct DepthCameraOptions {
   int width = 640, height = 480;
   double depth_step = 0.002;  ///< depth is rounded to multiples of this, m; 0: not rounded
-  double max_depth = 9;       ///< NaN beyond, m
-  double dropouts = 0.01;     ///< part of the pixels that are NaN at random
+  double max_depth = 9;       ///< pixels beyond it are NaN, m
+  double dropouts = 0.01;     ///< share of random pixels that are NaN
 };
-/// What the pixels of a depth image without dropouts know of where surfaces end in it.
+/// Pixels of a depth image without dropouts at which surfaces end, by the eight pixels around each.
 struct ImageEdges {
-  std::vector<std::uint8_t> rim;    ///< N; 1 where one of the eight pixels around sees nothing, or there is none
-  std::vector<std::uint8_t> jump;   ///< N; 1 where one sees another surface, at least a twentieth nearer or farther
-  std::vector<std::uint8_t> other;  ///< N; 1 where one sees another surface
+  std::vector<std::uint8_t> rim;    ///< N; 1 if one of these sees nothing or is outside of the image
+  std::vector<std::uint8_t> jump;   ///< N; 1 if one sees another surface, at least a twentieth nearer or farther
+  std::vector<std::uint8_t> other;  ///< N; 1 if one sees another surface
 };
 /// @param image organized, labelled, depth along z
 ImageEdges imageEdges(const Cloud& image);
-/// The pixels at most `pixels` rows and columns away from a marked one.
+/// Marks all pixels at most `pixels` rows and columns away from a marked one.
 std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& marks, int width, int pixels);
 
-/// Organized, camera at the origin, z along the view, y down. NaN also where a surface is seen at less than
-/// 5 degrees.
+/// A depth image by a camera at the origin, with z along the view and y down. Pixels that see a surface at less than 5
+/// degrees are NaN too.
 Cloud depthCamera(const DepthCameraOptions& options = {}, std::uint64_t seed = 1);
 
 // Meshes ---------------------------------------------------------------------------------------------------------
 
-/// Which triangles join the points of a flat face; the points do not depend on it.
+/// How the points of a flat face are triangulated; the points do not depend on it.
 enum class Quality {
   good,  ///< neighbouring rows zipped by the shorter diagonal
-  bad,   ///< every strip of a face is two fans: slivers as long as the face
+  bad,   ///< two fans per strip of a face: slivers as long as the face
 };
 
 /// [0, 1]^3, every face with (n + 1)^2 points, jittered along rows inside it.
 Mesh cubeMesh(int n, Quality quality, std::uint64_t seed = 1);
-/// Equilateral triangle of side 1 times a height of 1.5; every edge in n parts.
+/// A prism of height 1.5 over an equilateral triangle of side 1; every edge has n segments.
 Mesh prismMesh(int n, Quality quality, std::uint64_t seed = 1);
 Mesh cubeQuads(int n);  ///< [0, 1]^3 as 6 n^2 squares
 Mesh prismQuads(
@@ -215,12 +215,12 @@ Mesh moebius(int n);          ///< strip of width 0.8 about the unit circle, 4n 
 Mesh kleinBottle(int n);      ///< figure-eight immersion, 2n x n; crosses itself, no points coincide
 /// gridSquare with caps of height 1e-10 along its middle row (n even).
 Mesh slivers(int n);
-Mesh zeroLengthEdges(int n);  ///< gridSquare whose middle row is there twice, joined by triangles without area (n even)
-Mesh repeatedVertices(int n);      ///< gridSquare with triangles (a, a, b) and (a, a, a) among the others
+Mesh zeroLengthEdges(int n);       ///< gridSquare with its middle row twice, joined by triangles without area (n even)
+Mesh repeatedVertices(int n);      ///< gridSquare with additional triangles (a, a, b) and (a, a, a)
 Mesh unreferencedVertices(int n);  ///< gridSquare with 3 unused points, the first one among them
 Mesh duplicateTriangles(int n);    ///< gridSquare with its first triangle three times, once reversed
 Mesh mixedOrientation(int n, std::uint64_t seed = 1);  ///< gridSquare with half of its triangles reversed
-Mesh severalComponents();                              ///< icosphere, square and tetrahedron, apart
+Mesh severalComponents();                              ///< a separate icosphere, square and tetrahedron
 
 // Catalogues -----------------------------------------------------------------------------------------------------
 

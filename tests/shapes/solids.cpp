@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 using Rows = std::vector<std::vector<int>>;
 using AddStrip = std::function<void(MeshBuilder&, const std::vector<int>&, const std::vector<int>&)>;
 
-// n x n points of the parallelogram origin + [0, 1] u + [0, 1] v. The rim is shared with other faces, so only inner
-// points are moved, along their row; rows stay straight and any triangulation of a strip is valid.
+// Rows of points of the parallelogram origin + [0, 1] u + [0, 1] v. Points of the rim are shared with other faces, so
+// only inner points are jittered, along their row: rows stay straight, and any triangulation of a strip is valid.
 Rows parallelogramRows(MeshBuilder& builder, const Vector3d& origin, const Vector3d& u, const Vector3d& v, int n,
                        Random* random) {
   Rows rows(n + 1);
@@ -49,7 +49,7 @@ void addStrips(MeshBuilder& builder, const Rows& rows, const AddStrip& add_strip
 }
 
 void addCube(MeshBuilder& builder, int n, Random* random, const AddStrip& add_strip) {
-  // Every edge runs along a positive axis, so that faces agree on its points bit for bit; u x v points outwards.
+  // Every edge runs in the direction of an axis, so that faces share its points bit for bit; u x v points outwards.
   const std::array<Vector3d, 3> axes{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d u = axes[(axis + 1) % 3], v = axes[(axis + 2) % 3];
@@ -144,7 +144,7 @@ Mesh icosphere(int subdivisions) {
     }
   }
   for (Vector3d& p : points) p.normalize();
-  // The faces are the triples of neighbours, whose distance is 1.05 (the next one is 1.7).
+  // Faces are triples of vertices with distances of 1.05; the next larger distance is 1.7.
   const auto near = [&](int a, int b) { return (points[a] - points[b]).norm() < 1.2; };
   std::vector<std::array<int, 3>> faces;
   for (int a = 0; a < 12; ++a) {

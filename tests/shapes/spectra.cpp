@@ -16,7 +16,7 @@ VectorXd smallest(std::vector<double> values, int count) {
   return Eigen::Map<VectorXd>(values.data(), std::min<Eigen::Index>(count, values.size()));
 }
 
-// J'_m by Bessel's integral; the trapezoidal rule converges faster than any power for a periodic integrand.
+// J'_m by Bessel's integral. For a periodic integrand the trapezoidal rule converges faster than any power.
 double besselDerivative(int m, double x) {
   constexpr int steps = 256;
   double sum = 0;
@@ -56,14 +56,14 @@ VectorXd rectangleSpectrum(double width, double height, int count) {
 }
 
 VectorXd diskSpectrum(int count) {
-  // Weyl's law, N(lambda) = lambda / 4 + sqrt(lambda) / 2 + ..., bounds the zeros that matter.
+  // By Weyl's law, N(lambda) = lambda / 4 + sqrt(lambda) / 2 + ..., zeros up to this limit suffice.
   const double limit = 2 * std::sqrt(static_cast<double>(count)) + 4;
-  constexpr double step = 0.05;  // far less than the distance between zeros, which is about pi
+  constexpr double step = 0.05;  // far less than the distance of zeros, about pi
   std::vector<double> values{0};
   for (int m = 0; m < limit; ++m) {
     for (double x = 0.5 * step; x < limit; x += step) {
       if (besselDerivative(m, x) * besselDerivative(m, x + step) > 0) continue;
-      if (m > 1 && x + step < m) continue;  // no zero below m; J'_m is lost in rounding there
+      if (m > 1 && x + step < m) continue;  // there are no zeros below m, where J'_m is lost in rounding
       const double zero = bisect(m, x, x + step);
       values.insert(values.end(), m == 0 ? 1 : 2, zero * zero);
     }
@@ -72,7 +72,7 @@ VectorXd diskSpectrum(int count) {
 }
 
 VectorXd torusSpectrum(double major_radius, double minor_radius, int count) {
-  // u = f(b) e^(i m phi) with w = R + r cos b: minimise the integral of w (f'/r)^2 + m^2 f^2 / w against w f^2.
+  // u = f(b) e^(i m phi) with w = R + r cos b: Rayleigh quotient of w (f'/r)^2 + m^2 f^2 / w and w f^2.
   constexpr int waves = 32, basis = 2 * waves + 1, steps = 256;
   std::vector<double> values;
   for (int m = 0; m * m < 4 * count; ++m) {
@@ -119,7 +119,7 @@ VectorXd repeatedSpectrum(const VectorXd& spectrum, int copies) {
 PoissonProblem spherePoisson(const Points& points) {
   const auto x = points.col(0).array(), z = points.col(2).array();
   const Eigen::ArrayXd u = z * x.exp();
-  // Delta on the sphere is that of space without the radial derivatives: u_rr = (2 x + x^2) u, u_r = (1 + x) u.
+  // Delta on the sphere is Delta u - u_rr - 2 u_r with u_rr = (2 x + x^2) u and u_r = (1 + x) u.
   return {u, -u * (1 - (2 * x + x.square()) - 2 * (1 + x))};
 }
 

@@ -4,8 +4,8 @@
 
 namespace tufted::shapes {
 
-/// Eigenvalues of the Laplacian on surfaces where they are known, ascending, each as often as its multiplicity, the
-/// zeros included. Boundaries are free (Neumann) unless said otherwise.
+/// Known eigenvalues of the Laplacian on surfaces, ascending, with multiplicity and zeros. Boundary conditions are
+/// Neumann unless stated otherwise.
 
 VectorXd sphereSpectrum(int count);                                  ///< radius 1: l (l + 1), 2l + 1 times
 VectorXd rectangleSpectrum(double width, double height, int count);  ///< pi^2 (i^2 / width^2 + j^2 / height^2)
@@ -14,8 +14,9 @@ VectorXd diskSpectrum(int count);                                    ///< radius
 VectorXd torusSpectrum(double major_radius, double minor_radius, int count);
 /// Unit cube's surface; numeric, relative accuracy 1e-5. 50 values are known.
 VectorXd cubeSpectrum(int count);
-/// `pages` rectangles, each `width` wide, that meet at one spine of length `height`: functions agree along the spine
-/// and their derivatives sum to 0 there. So one copy is free at the spine, pages - 1 copies vanish there.
+/// `pages` rectangles of width `width` that meet at one spine of length `height`: functions agree on the spine and
+/// their normal derivatives sum to 0. So one copy has Neumann conditions there, pages - 1 copies have Dirichlet
+/// conditions.
 VectorXd bookSpectrum(int pages, double width, double height, int count);
 /// The spectrum of `copies` separate surfaces, each with the given spectrum.
 VectorXd repeatedSpectrum(const VectorXd& spectrum, int copies);
@@ -23,7 +24,7 @@ VectorXd repeatedSpectrum(const VectorXd& spectrum, int copies);
 struct PoissonProblem {
   VectorXd u, f;  ///< N; -Delta u = f on the surface; u has no particular mean
 };
-/// Radius 1: u = z exp(x), which no finite number of eigenfunctions adds up to.
+/// On the sphere of radius 1: u = z exp(x), which is no finite sum of eigenfunctions.
 PoissonProblem spherePoisson(const Points& points);
 
 }  // namespace tufted::shapes

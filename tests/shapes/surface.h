@@ -15,16 +15,16 @@ struct SurfacePoint {
   double stretch;
 };
 
-/// A surface made of rows: t in [0, span] counts the rows (as arc length where possible), s in [0, 1] runs along one.
+/// A surface made of rows: t in [0, span] numbers the rows (by arc length if possible), s in [0, 1] runs along one.
 struct Surface {
   std::string name{};
   double span = 1;
   std::function<SurfacePoint(double t, double s)> at{};
-  double max_stretch = 1;  ///< bound of the stretch, for rejection sampling
+  double max_stretch = 1;  ///< upper bound of the stretch, for rejection sampling
   double area = 0;
-  bool rim_first = false;  ///< t = 0 is a boundary
-  bool rim_last = false;   ///< t = span is a boundary
-  bool rim_sides = false;  ///< s = 0 and s = 1 are boundaries; otherwise rows are closed
+  bool rim_first = false;  ///< whether t = 0 is a boundary
+  bool rim_last = false;   ///< whether t = span is a boundary
+  bool rim_sides = false;  ///< whether s = 0 and s = 1 are boundaries; otherwise rows are closed
   VectorXd eigenvalues{};
 };
 
@@ -36,7 +36,7 @@ Surface torusSurface(double major_radius, double minor_radius);
 Surface cylinderSurface();
 Surface saddleSurface();
 
-/// n points of the surface (Sampling::lattice: about n).
+/// Samples n points of the surface (Sampling::lattice: about n).
 Cloud sampleSurface(const Surface& surface, int n, Sampling sampling, Rim rim, std::uint64_t seed);
 
 }  // namespace tufted::shapes

@@ -14,15 +14,14 @@ namespace tufted::support {
 /// An algorithm with its arguments.
 struct Algorithm {
   std::string name;
-  /// Whether a component's values depend on nothing but the component, so that those of a part of a cloud are those of
-  /// the part alone. A spectrum belongs to the whole.
+  /// Whether values on a component depend only on that component; eigenpairs depend on the whole surface.
   bool is_local;
   /// @param points those that the Laplacian was built from
-  /// @return N x c; without signs where these depend on that of a normal
+  /// @return N x c; absolute values if signs depend on those of normals
   std::function<Eigen::MatrixXd(const Laplacian& laplacian, const Points& points)> run;
 };
 
-/// What computes with the Laplacian of a cloud, with sources among the first 60 points, which lie on one component.
+/// All algorithms that use a cloud's Laplacian, with sources among the first 60 points, which must be on one component.
 inline std::vector<Algorithm> algorithms() {
   using Eigen::MatrixXd;
   const std::vector<int> sources = {3, 40};

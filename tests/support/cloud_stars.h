@@ -9,13 +9,13 @@
 
 namespace tufted::support {
 
-/// A cloud in the order of a build, and its stars.
+/// A cloud in Morton order, and its stars.
 struct CloudStars {
   RankedCloud cloud;
   SurfaceStars built;
 };
 
-/// The stars that a build makes of all points of a cloud.
+/// Computes the stars of a cloud as a build does.
 inline CloudStars starsOf(const Points& points, const CloudOptions& options = {}) {
   std::vector<PointStatus> status;
   std::vector<int> representative;

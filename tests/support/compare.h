@@ -10,14 +10,13 @@
 
 namespace tufted::support {
 
-/// Row i of the result is row `source[i]` of `points`.
+/// Permutes points: row i of the result is row `source[i]` of `points`.
 inline Points permuted(const Points& points, const std::vector<int>& source) {
   Points result(points.rows(), 3);
   for (Eigen::Index i = 0; i < points.rows(); ++i) result.row(i) = points.row(source[i]);
   return result;
 }
 
-/// The mean of |d - exact| over the mean of exact.
 inline double meanError(const VectorXd& distance, const VectorXd& exact) {
   return (distance - exact).cwiseAbs().sum() / exact.sum();
 }
@@ -37,7 +36,7 @@ inline bool sameBits(const VectorXd& a, const VectorXd& b) {
   return a.size() == b.size() && sameBits(a.data(), b.data(), static_cast<std::size_t>(a.size()));
 }
 
-/// The matrix whose entry (i, j) is L(source[i], source[j]), its entries copied.
+/// Permutes a matrix: entry (i, j) of the result is L(source[i], source[j]).
 inline SparseMatrix permuted(const SparseMatrix& L, const std::vector<int>& source) {
   std::vector<int> place(source.size());
   for (std::size_t i = 0; i < source.size(); ++i) place[source[i]] = static_cast<int>(i);

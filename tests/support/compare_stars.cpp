@@ -32,8 +32,8 @@ std::set<int> linkOf(const DelaunayStar& star) {
   return link;
 }
 
-/// Whether p, q and two neighbours next to q in `ring` are cocircular within the band, so that either diagonal is
-/// right.
+/// Whether the star's point, q and two points of `ring` beside q are cocircular within the tie band, so that both
+/// diagonals are right.
 bool isTied(const PlanarPoint& q, const Buffer<PlanarPoint>& ring) {
   for (const PlanarPoint& a : ring) {
     for (const PlanarPoint& c : ring) {
@@ -67,7 +67,7 @@ StarComparison compareStars(const Points& points, int step) {
     const std::set<int> our_link = linkOf(ours);
     bool tied = false, different = ours.triangles() > 0 && ours.closed != oracle.closed;
     const auto compareWith = [&](const std::set<int>& link) {
-      Buffer<PlanarPoint> ring;  // both links together
+      Buffer<PlanarPoint> ring;  // the points of both links
       for (const PlanarPoint& q : planar) {
         if (our_link.count(q.index) + link.count(q.index) > 0) ring.push_back(q);
       }

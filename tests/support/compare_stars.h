@@ -8,15 +8,15 @@ namespace tufted::support {
 
 /// Outcome of comparing stars with CGAL::Delaunay_triangulation_2 on the same projected doubles.
 struct StarComparison {
-  int stars = 0;      ///< compared
-  int with_ties = 0;  ///< equal but for edges within the tie band
-  int different = 0;  ///< really different
+  int stars = 0;      ///< stars compared
+  int with_ties = 0;  ///< stars that differ only in edges within the tie band
+  int different = 0;  ///< stars that differ otherwise
   std::string first_difference;
 };
 
-/// Takes every `step`-th point of a cloud, projects its 30 nearest neighbours to its tangent plane and compares our
-/// star with the oracle's, and with our CGAL backend where that is built. They may differ only where four points are
-/// cocircular within the tie band.
+/// Compares the stars of every `step`-th point of a cloud, in its 30 nearest neighbours projected to its tangent plane,
+/// with those of the oracle and, if built, of Delaunay::cgal. They may differ only if four points are cocircular within
+/// the tie band.
 StarComparison compareStars(const Points& points, int step);
 
 }  // namespace tufted::support

@@ -6,16 +6,16 @@
 
 #include "tufted/laplacian.h"
 
-// Checks of what every algorithm promises for points that coincide or take no part.
+// Checks of the values of every algorithm at coincident, isolated and non-finite points.
 
 namespace tufted::support {
 
-/// Whether a point takes part, by itself or through its representative.
+/// Whether a point or its representative is active.
 inline bool takesPart(const Laplacian& laplacian, Eigen::Index i) {
   return laplacian.status[laplacian.representative[i]] == PointStatus::active;
 }
 
-/// Expects copies to have the values of their representative.
+/// Expects coincident points to have the values of their representative.
 inline void expectCopies(const Laplacian& laplacian, const Eigen::MatrixXd& values) {
   ASSERT_EQ(values.rows(), std::ssize(laplacian.status));
   const Eigen::MatrixXd u = values.array().isNaN().select(-1e9, values);
@@ -26,8 +26,8 @@ inline void expectCopies(const Laplacian& laplacian, const Eigen::MatrixXd& valu
   }
 }
 
-/// Expects finite values at points that take part.
-/// @param elsewhere at all others: 0 or NaN
+/// Expects finite values where takesPart(), and values as expectCopies() does.
+/// @param elsewhere value at all other points: 0 or NaN
 inline void expectDefined(const Laplacian& laplacian, const Eigen::MatrixXd& values, double elsewhere) {
   expectCopies(laplacian, values);
   for (Eigen::Index i = 0; i < values.rows(); ++i) {

@@ -6,9 +6,10 @@
 
 namespace tufted::support {
 
-/// The graph Laplacian of square grids of weight 1 in a row, the last point of each joined to the first of the next.
+/// The graph Laplacian of several square grids with edges of weight 1, and an edge from the last point of each grid to
+/// the first of the next.
 /// @param side points along a grid's side
-/// @param joints weights, one less than there are grids
+/// @param joints weights of the edges between grids, one less than there are grids
 inline Laplacian joinedGrids(int side, const std::vector<double>& joints) {
   const int size = side * side, grids = static_cast<int>(joints.size()) + 1, n = grids * size;
   std::vector<Eigen::Triplet<double>> entries;

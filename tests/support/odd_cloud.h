@@ -6,8 +6,7 @@
 
 namespace tufted::support {
 
-/// Two spheres apart of 1000 points each, with copies of points 5 and 8, one that is not finite and one that is
-/// isolated.
+/// Two separate spheres of 1000 points each, copies of points 5 and 8, a point that is not finite and an isolated one.
 inline Points oddCloud() {
   Points points(2004, 3);
   points.topRows(1000) = shapes::sphere(1000).points;
@@ -19,8 +18,8 @@ inline Points oddCloud() {
   return points;
 }
 
-/// A disk of 1000 points and apart a sphere of 500, then a copy of point 7, one that is not finite and one that is
-/// isolated.
+/// A disk of 1000 points and a separate sphere of 500, a copy of point 7, a point that is not finite and an isolated
+/// one.
 inline Points oddDisk() {
   Points points(1503, 3);
   points.topRows(1000) = shapes::disk(1000).points;

@@ -9,8 +9,8 @@
 
 namespace tufted::support {
 
-/// How far values lie outside the range of their column's pins, over that range. Infinite where a value is due, because
-/// a path leads to a pin, and is not a number.
+/// By how much values leave the range of their column's pins, relative to that range; infinite if a value on a
+/// component with a pin is NaN.
 inline double overshoot(const Laplacian& laplacian, const Eigen::MatrixXd& u, const Pins& pins) {
   const Components components = findComponents(laplacian);
   std::vector<bool> reached(components.count, false);

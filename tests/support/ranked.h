@@ -6,7 +6,7 @@
 
 namespace tufted::support {
 
-/// A cloud in the order of a build, for tests that do not ask which points take part.
+/// A cloud in Morton order, for tests that do not use the status of points.
 inline RankedCloud ranked(const Points& points) {
   std::vector<PointStatus> status;
   std::vector<int> representative;

@@ -6,7 +6,7 @@
 
 namespace tufted::support {
 
-/// What InvalidInput says when a call is refused, "accepted" when it is not.
+/// The message of the InvalidInput that a call throws, or "accepted".
 template <class Call>
 std::string refusal(const Call& call) {
   try {

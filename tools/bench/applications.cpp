@@ -14,7 +14,7 @@
 #include "shapes/shapes.h"
 #include "tufted/interpolation.h"
 
-// Tables of what the algorithms reach, in Markdown.
+// Tables of the accuracy of the algorithms, in Markdown.
 
 namespace {
 
@@ -24,7 +24,7 @@ namespace bench = tufted::bench;
 namespace oracles = tufted::oracles;
 namespace shapes = tufted::shapes;
 
-/// Figure 15: how far harmonic functions leave the range of their pins, over that range.
+/// The paper's Figure 15: by how much harmonic functions leave the range of their pins, relative to it.
 void printObtuse() {
   std::printf("| square, obtuse boundary | cotan | intrinsic Delaunay | ours |\n|---|---|---|---|\n");
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -43,7 +43,7 @@ void printObtuse() {
   }
 }
 
-/// L2 error beyond 4 edges of the source.
+/// L2 error at points more than 4 edges away from the source.
 double greenError(const Laplacian& laplacian, const Points& points, double edge) {
   const Eigen::MatrixXd g = tufted::greensFunction(laplacian, {0});
   double square = 0;

@@ -21,9 +21,9 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// Parts of an edge of the cube.
+/// Number of segments of an edge of the cube.
 constexpr int parts = 20;
-/// Edges that bend by more than so many degrees are creases, which remeshing keeps.
+/// Edges with a dihedral angle above this, in degrees, are creases, which remeshing keeps.
 constexpr double crease = 30;
 
 Surface surfaceOf(const Points& points, const Triangles& triangles) {
@@ -87,9 +87,9 @@ BooleanSolid cubeAndPost(std::uint64_t seed) {
   const double direction = random.uniform(0, 2 * M_PI);
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(inclination, Eigen::Vector3d(std::cos(direction), std::sin(direction), 0)).toRotationMatrix();
-  const Eigen::Vector3d middle(0.5, 0.5, 1);  // of the top of the cube
+  const Eigen::Vector3d middle(0.5, 0.5, 1);  // middle of the cube's top
   for (auto&& p : post.points.rowwise()) {
-    // Squares become circles.
+    // Maps squares to circles.
     Eigen::Vector3d q(2 * p.x() - 1, 2 * p.y() - 1, length * p.z() - inside);
     const double norm = q.head<2>().norm();
     if (norm > 0) q.head<2>() *= radius * q.head<2>().lpNorm<Eigen::Infinity>() / norm;

@@ -16,25 +16,25 @@ struct BooleanMesh {
   Triangles triangles;
 };
 
-/// A solid as CGAL's boolean operation leaves it, with slivers along the cut, and CGAL's isotropic remeshing of that,
-/// which keeps its creases. Two of its flat faces are handles.
+/// The result of a boolean operation by CGAL, with slivers along the cut, and its isotropic remeshing by CGAL, which
+/// keeps creases. Two of its flat faces are handles.
 struct BooleanSolid {
   std::string name;
   BooleanMesh cut, remeshed;
-  Plane stays, moves;  ///< of the handles; no other points lie there
+  Plane stays, moves;  ///< planes of the two handles, with no other points
 };
 
 /// A unit cube united with a ball at one of its sides, or without the ball; the handles are bottom and top.
-/// @param seed of the ball's place and of the cube's points
+/// @param seed for the position of the ball and the points of the cube
 BooleanSolid cubeAndBall(bool is_union, std::uint64_t seed);
 /// A unit cube with an inclined round post on it; the handles are the bottom and the end of the post.
-/// @param seed of the post's direction and of points
+/// @param seed for the direction of the post and the points
 BooleanSolid cubeAndPost(std::uint64_t seed);
 
 /// The points of a mesh in a plane.
 std::vector<int> pointsIn(const Plane& plane, const Points& points);
 
-/// Values at the points of a mesh, interpolated at the places of its surface that are nearest to `places`.
+/// Interpolates values at the points of a mesh, at the points of its surface nearest to `places`.
 Points valuesAt(const BooleanMesh& mesh, const Points& values, const Points& places);
 
 }  // namespace tufted::bench

@@ -19,16 +19,16 @@ namespace {
 
 constexpr int neighbor_count = 30;
 constexpr Eigen::Index largest_frame = 640 * 480;
-constexpr double noise = 0.005;  // of the radius of the sphere
+constexpr double noise = 0.005;  // standard deviation, in radii of the sphere
 
 struct CloudCase {
-  std::string cloud;  ///< what the points are
+  std::string cloud;  ///< name of the cloud
   std::function<Points()> make;
   Preset preset = Preset::clean;
   Gluing gluing = Gluing::star;
   Delaunay delaunay = Delaunay::star;
   int threads = 1;
-  bool portable = false;  ///< without wide instructions
+  bool portable = false;  ///< whether to use the kernels without AVX
 
   std::string name() const {
     return "cloud/" + cloud + "/" +
@@ -40,7 +40,7 @@ struct CloudCase {
   }
 };
 
-/// Only the cloud of the last case is kept.
+/// The points of a case. Those of the last case are kept.
 const Points& pointsOf(const CloudCase& c) {
   static std::string cloud;
   static Points points;
@@ -55,7 +55,7 @@ RankedCloud ranked(const Points& points) {
   return rankPoints(points, status, representative);
 }
 
-/// Builds frame after frame, alternately on its own and in the memory of a builder: `builder_frames_per_second` and
+/// Builds frames alternately by pointCloudLaplacian() and by a LaplacianBuilder: `builder_frames_per_second` and
 /// `builder_per_whole`.
 void runFrames(benchmark::State& state, const Points& points, const CloudOptions& options, Costs& costs) {
   constexpr int frames = 7;
@@ -73,10 +73,10 @@ void runFrames(benchmark::State& state, const Points& points, const CloudOptions
   state.counters["builder_per_whole"] = seconds / costs.medianSeconds("frame");
 }
 
-/// One build per iteration: seconds of the processor with one thread, else of the clock. With one thread, every build
-/// is followed by the search alone (not timed), so that both medians come from the same minutes: `whole_per_flann`.
-/// Points are those that are finite and differ. The cover is not kept but built on demand from what three more
-/// builds keep: `cover_per_whole`.
+/// One build per iteration, in CPU time on one thread, otherwise in wall-clock time. On one thread each build is
+/// followed by a search (not timed), so that both medians are from the same minutes: `whole_per_flann`. Points that are
+/// counted are finite and distinct. The cover is not kept; three more builds measure building it on demand:
+/// `cover_per_whole`.
 void runCloud(benchmark::State& state, const CloudCase& c) {
   const Points& points = pointsOf(c);
   CloudOptions options = cloudOptions(c.preset);
@@ -86,9 +86,9 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
   options.threads = c.threads;
   options.keep_cover = false;
   chooseKernels(c.portable ? &portableKernels() : nullptr);
-  Costs costs(ranked(points).size());  // which is not kept, as it would count in the peak
+  Costs costs(ranked(points).size());  // the ranked points are not kept, as they would count in the peak
   if (c.threads == 1) costs.measurePeak([&] { pointCloudLaplacian(points, options); });
-  pointCloudLaplacian(points, options);  // the first build finds the memory; only later ones count
+  pointCloudLaplacian(points, options);  // the first build is not measured, because it takes memory from the system
   const RankedCloud cloud = ranked(points);
   for ([[maybe_unused]] auto _ : state) {
     {
@@ -126,7 +126,7 @@ void registerCloud(const CloudCase& c, std::int64_t points) {
       ->Unit(benchmark::kMillisecond);
 }
 
-/// One thread and all, clean and scan.
+/// Registers a case with one and with all threads, clean and scan.
 void registerPresets(CloudCase c, std::int64_t points) {
   for (const int threads : {1, 0}) {
     for (const Preset preset : {Preset::clean, Preset::scan}) {
@@ -143,7 +143,7 @@ std::string counted(const std::string& name, int points) {
 
 void registerSpheres() {
   for (const int n : {10'000, 30'000, 100'000, 1'000'000, 5'000'000}) {
-    // Independent random points in random order, and in that of a scan.
+    // Random points in random order, and in the order of a scan.
     CloudCase sphere{.cloud = counted("sphere", n), .make = [n] { return shapes::sphere(n).points; }};
     registerPresets(sphere, n);
     if (n > 1'000'000) continue;

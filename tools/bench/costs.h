@@ -14,7 +14,7 @@
 
 namespace tufted::bench {
 
-/// Seconds for which this process has computed on one thread, so that others on the machine count little.
+/// CPU time of this process, which depends little on other processes of the machine.
 class CpuStopwatch {
  public:
   double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
@@ -23,7 +23,7 @@ class CpuStopwatch {
   std::clock_t start_ = std::clock();
 };
 
-/// Seconds of a build: of the processor on one thread, of the clock on several.
+/// Time of a build: CPU time on one thread, wall-clock time on several.
 class BuildStopwatch {
  public:
   explicit BuildStopwatch(int threads) : threads_(threads) {}
@@ -35,23 +35,23 @@ class BuildStopwatch {
   Stopwatch clock_;
 };
 
-/// Collects what the builds of one case cost and writes medians as counters of the benchmark:
+/// Collects the costs of the builds of one case and writes medians as counters of the benchmark:
 ///   s:<stage>       seconds
 ///   B:<stage>       bytes that the stage leaves behind
 ///   B_per_item      sum of these per point (clouds) or triangle (meshes)
-///   peak_B_per_item highest resident memory, per item, of the process of measurePeak(), or else of this one so far
+///   peak_B_per_item peak resident memory, per item, of the process of measurePeak(), otherwise of this one so far
 class Costs {
  public:
   /// @param items points or triangles
   explicit Costs(std::int64_t items) : items_(items) {}
 
-  /// Builds once on one thread in a process that holds what this one holds by now.
+  /// Builds once on one thread, in a copy of this process.
   void measurePeak(const std::function<void()>& build);
   void addBuild(double seconds, const Report& report);
-  /// A measurement beside the stages of the build.
+  /// Adds a measurement that is no stage of the build.
   void addSeconds(const std::string& name, double seconds) { seconds_[name].push_back(seconds); }
 
-  /// Median of what was added as `name` so far; "whole" is the build.
+  /// Median of the times added as `name`; "whole" is the build.
   double medianSeconds(const std::string& name) const;
 
   void publish(benchmark::State& state) const;
@@ -63,7 +63,7 @@ class Costs {
   double peak_bytes_ = 0;
 };
 
-/// Fewer repetitions of larger cases.
+/// Number of repetitions, fewer for larger cases.
 benchmark::IterationCount iterationsFor(std::int64_t items);
 
 std::string threadsName(int threads);

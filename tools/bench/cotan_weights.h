@@ -7,7 +7,7 @@
 
 namespace tufted::bench {
 
-/// A mesh's Laplacian with the L and M of cotan weights in place of its own.
+/// Replaces L and M of a mesh's Laplacian by those of cotan weights.
 inline Laplacian withCotan(Laplacian laplacian, const Points& points, const Triangles& triangles) {
   oracles::Operators cotan = oracles::cotanLaplacian(points, triangles);
   laplacian.L = std::move(cotan.L);

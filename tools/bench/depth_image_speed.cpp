@@ -1,4 +1,4 @@
-// What the build of a depth image or of the rings of a scanner costs, stage by stage, beside the tree's and PCL's
+// Time of a build from a depth image or from rings, stage by stage, compared with a build by the tree and with PCL's
 // normals.
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ struct Image {
   int width, height;
   bool has_rings = false;
 
-  /// The preset for what the scan's structure is used with.
+  /// The preset for this kind of scan.
   Preset preset() const { return has_rings ? Preset::lidar : Preset::scan; }
   ScanStructure structure() const {
     if (!has_rings) return imageStructure(width, height);
@@ -55,7 +55,7 @@ std::vector<Image> images() {
   return images;
 }
 
-/// The report of the fastest of some frames that one builder makes, and its seconds.
+/// The report and the seconds of the fastest of several frames of one builder.
 struct Frame {
   Report report;
   double seconds = HUGE_VAL;

@@ -1,4 +1,4 @@
-// What the Laplacian of a depth image is worth, by its pixels and by the tree, where the surfaces are known.
+// Accuracy of Laplacians of depth images with known surfaces, by pixels and by the tree.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,7 +20,7 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Whether a pixel is at least five pixels inside of its body in the image.
+/// Whether a pixel is at least five pixels from the edges of its body and of the image.
 bool isInside(const View& view, int i) {
   const int row = i / view.width, column = i % view.width;
   if (row < 5 || column < 5 || row >= view.height - 5 || column >= view.width - 5) return false;
@@ -46,7 +46,7 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-/// What is measured on one build.
+/// Figures of one build.
 struct Quality {
   double area = 0, local_area = 0, normal = 0, worst_normal = 0, linear = 0, across = 0, agreed = 0;
 
@@ -85,7 +85,7 @@ Quality measure(const View& view, const Points& points, const Laplacian& laplaci
     if (is_inside && diagonal > 0)
       linear.push_back((image - image.dot(normal) * normal).norm() / (diagonal * std::sqrt(pixel)));
   }
-  // What one body has too much does not make up for what another misses, nor one patch for the next.
+  // Excess area of one body or patch does not compensate for area missing in another.
   const double seen = std::accumulate(view.areas.begin(), view.areas.end(), 0.0);
   for (int body = 0; body < view.body_count; ++body) {
     double error = 0;
@@ -103,7 +103,7 @@ Quality measure(const View& view, const Points& points, const Laplacian& laplaci
   return quality;
 }
 
-/// Root mean square distance from the surface, five pixels and more away from edges.
+/// Root mean square distance from the surface, at pixels inside by isInside().
 double offSurface(const View& view, const Points& points) {
   double sum = 0, count = 0;
   for (int i = 0; i < points.rows(); ++i) {
@@ -114,7 +114,7 @@ double offSurface(const View& view, const Points& points) {
   return std::sqrt(sum / count);
 }
 
-/// The views of all seeds.
+/// The views for all seeds.
 std::vector<std::vector<View>> seenViews() {
   std::vector<std::vector<View>> seen;
   for (std::uint64_t seed = first_view_seed; seed <= last_view_seed; ++seed) seen.push_back(views(seed));

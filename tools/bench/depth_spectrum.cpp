@@ -1,4 +1,4 @@
-// Eigenvalues of a ball that a depth camera sees from one side.
+// Eigenvalues of the cap of a ball that a depth camera sees.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,13 @@
 namespace tufted::bench {
 namespace {
 
-constexpr int wanted = 20;  // eigenvalues above 0
-/// The polar angle of the rim of the cap, counted from the point of the ball that is nearest to the camera. The cap is
-/// seen at less than 72 degrees, so that its rim is known to a pixel.
+constexpr int wanted = 20;  // number of positive eigenvalues
+/// Polar angle of the rim of the cap, from the point nearest to the camera. Rays meet the cap at less than 72 degrees,
+/// so that its rim is known to a pixel.
 constexpr double angle = 52 * std::numbers::pi / 180;
 
-/// Eigenvalues of the unit sphere's Laplacian on the cap, without flow through its rim: for each order m along the
-/// circles of latitude those of an equation in the polar angle, by linear finite elements.
+/// Neumann eigenvalues of the cap of the unit sphere: for each order m along the circles of latitude, those of an
+/// equation in the polar angle, by linear finite elements.
 std::vector<double> eigenvaluesOfCap() {
   constexpr int nodes = 400, most_order = 12;
   const double step = angle / (nodes - 1);
@@ -45,7 +45,7 @@ std::vector<double> eigenvaluesOfCap() {
   return {eigenvalues.begin() + 1, eigenvalues.begin() + 1 + wanted};
 }
 
-/// The points whose pixels see the cap; the others are NaN.
+/// The points whose pixels see the cap; others become NaN.
 Points pointsOfCap(const View& view, Points points) {
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     if (!(ball_depth - view.points(i, 2) > ball_radius * std::cos(angle)))
@@ -53,10 +53,10 @@ Points pointsOfCap(const View& view, Points points) {
   return points;
 }
 
-/// Relative errors of the eigenvalues: the largest and, with its sign, the mean one.
+/// Relative errors of the eigenvalues; the mean is signed.
 struct Errors {
   double largest = 0, mean = 0;
-  double largest_change = 0;  ///< from those of exact depths
+  double largest_change = 0;  ///< largest relative difference from those of exact depths
 
   Errors& operator+=(const Errors& other) {
     largest += other.largest;
@@ -78,7 +78,7 @@ Errors errorsOf(const std::vector<double>& found, const std::vector<double>& of_
   return errors;
 }
 
-/// The eigenvalues above 0 as they would be on the unit sphere.
+/// The positive eigenvalues, scaled to the unit sphere.
 std::vector<double> eigenvaluesOf(const Points& points, const CloudOptions& options) {
   const Spectrum found = spectrum(pointCloudLaplacian(points, options), wanted + 1);
   std::vector<double> eigenvalues;
@@ -93,7 +93,7 @@ void printDepthSpectra() {
       "| depth | eigenvalues of the cap, by the tree: largest error, mean, largest change | by pixels |\n"
       "|---|---|---|\n");
   const std::vector<double> truth = eigenvaluesOfCap();
-  std::vector<std::vector<double>> of_exact;  // by the tree and by pixels, seed by seed
+  std::vector<std::vector<double>> of_exact;  // for each seed, by the tree and by pixels
   for (const CameraNoise& noise : camera_noises) {
     Errors errors[2];
     std::size_t build = 0;

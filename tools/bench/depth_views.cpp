@@ -12,15 +12,15 @@ namespace tufted::bench {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double disparity = 43.1;  // pixels times metres: 575 pixels of focal length, 7.5 cm between the lenses
+constexpr double disparity = 43.1;  // disparity times depth, pixels times metres: focal length 575, baseline 7.5 cm
 
-/// A plane through `place` with a normal, a ball around it, or a cylinder around the axis through it.
+/// A plane through `place` with the normal `axis`, a ball around it, or a cylinder around the axis through it.
 struct Body {
   enum class Kind { plane, ball, cylinder } kind;
   Eigen::Vector3d place, axis;
   double radius = 0;
 
-  /// Distance along the ray, and the normal there; nothing where they do not meet.
+  /// Distance along the ray to the body, and the normal there; `nothing` if they do not meet.
   std::pair<double, Eigen::Vector3d> meet(const Eigen::Vector3d& ray) const {
     if (kind == Kind::plane) return {place.dot(axis) / ray.dot(axis), axis};
     Eigen::Vector3d from = -place, along = ray;
@@ -40,7 +40,7 @@ struct Seen {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   int body = -1;
 
-  /// The area of what a pixel sees along this ray.
+  /// The area of surface that a pixel sees along this ray.
   double area(const Eigen::Vector3d& ray, double focal) const {
     return depth * depth / (focal * focal) / std::abs(normal.dot(ray));
   }
@@ -55,13 +55,13 @@ Seen seenAlong(const Eigen::Vector3d& ray, const std::vector<Body>& bodies) {
   return seen;
 }
 
-/// How much of a pixel lies between the middles of the outer ones: builds end there.
+/// The share of a pixel between the middles of the outer pixels, where triangles end.
 double shareOf(const View& view, int i) {
   const int row = i / view.width, column = i % view.width;
   return (row == 0 || row == view.height - 1 ? 0.5 : 1) * (column == 0 || column == view.width - 1 ? 0.5 : 1);
 }
 
-/// Whether a pixel or one beside it is of another body.
+/// Whether a pixel touches one of another body.
 bool isAtEdge(const View& view, int i) {
   const int row = i / view.width, column = i % view.width;
   for (int r = std::max(0, row - 1); r <= std::min(view.height - 1, row + 1); ++r)
@@ -71,7 +71,7 @@ bool isAtEdge(const View& view, int i) {
 }
 
 View viewOf(std::uint64_t seed, const std::string& name, const std::vector<Body>& bodies) {
-  constexpr int parts = 32;  // of a pixel at an edge, each way: bodies are seen along their surface there
+  constexpr int parts = 32;  // rays per pixel in each direction at edges, where surfaces are seen at grazing angles
   shapes::Random random(seed);
   const double aside = random.uniform() - 0.5, above = random.uniform() - 0.5;  // pixels
   View view{.name = name, .points = {}, .normals = {}, .bodies = {}, .areas = {}};

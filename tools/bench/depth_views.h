@@ -10,11 +10,11 @@
 
 namespace tufted::bench {
 
-/// Each seed draws the noise, where steps begin, and by which parts of a pixel the camera is turned.
+/// A seed determines the noise, the offset of disparity steps, and a rotation of the camera by less than a pixel.
 constexpr std::uint64_t first_view_seed = 101, last_view_seed = 103;
 constexpr double view_seeds = 1 + last_view_seed - first_view_seed;
 
-/// What a pinhole camera of 640 x 480 pixels would see exactly.
+/// The exact image of a scene by a pinhole camera of 640 x 480 pixels.
 struct View {
   std::string name;
   double focal = 525;
@@ -23,31 +23,30 @@ struct View {
   Points normals;
   std::vector<int> bodies;
   int body_count = 0;
-  /// That are seen of each body in each patch, between the middles of the outer pixels of the image.
+  /// Area seen of each body in each patch, between the middles of the outer pixels of the image, see areaOf().
   std::vector<double> areas;
 
-  static constexpr int patch = 16;  ///< pixels, each way
+  static constexpr int patch = 16;  ///< width and height of a patch in pixels
   int patchesInRow() const { return (width + patch - 1) / patch; }
   int patches() const { return patchesInRow() * ((height + patch - 1) / patch); }
-  /// Where the area of a body is that a pixel shows.
+  /// Index into `areas` of a body in the patch of a pixel.
   std::size_t areaOf(int pixel, int body) const {
     const int at = pixel / width / patch * patchesInRow() + pixel % width / patch;
     return static_cast<std::size_t>(at) * body_count + body;
   }
 };
 
-/// A room, things on a table, a ball, a corner, walls and a floor. The seed does not turn the camera in the room.
+/// A room, things on a table, a ball, a corner, walls and a floor. In the room the seed does not rotate the camera.
 std::vector<View> views(std::uint64_t seed);
 
-/// The ball of views().
 View ballView(std::uint64_t seed);
 constexpr double ball_depth = 1.2, ball_radius = 0.4;  // m
 
-/// Noise of a camera that measures disparities, or of one that times light.
+/// Noise of a camera that measures disparities, or times of flight.
 struct CameraNoise {
   std::string name;
-  double step, sigma;   ///< of the disparity, pixels
-  double of_range = 0;  ///< m
+  double step, sigma;   ///< step and standard deviation of the disparity, pixels
+  double of_range = 0;  ///< standard deviation of the range, m
 };
 
 inline const std::vector<CameraNoise> camera_noises = {{"exact", 0, 0},
@@ -56,8 +55,7 @@ inline const std::vector<CameraNoise> camera_noises = {{"exact", 0, 0},
                                                        {"noise .25 px", 0, 0.25},
                                                        {"timed light, noise 5 mm", 0, 0, 0.005}};
 
-/// The points of a view as a camera with such noise has them. Where steps are without noise the seed says at which
-/// disparity they begin.
+/// The points of a view with the noise of a camera. Without noise the seed determines the offset of disparity steps.
 Points seenBy(const View& view, const CameraNoise& noise, std::uint64_t seed);
 
 }  // namespace tufted::bench

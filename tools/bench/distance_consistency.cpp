@@ -17,11 +17,11 @@
 namespace tufted::bench {
 namespace {
 
-/// What distances from each of some points say of each other.
+/// Consistency of the distances from several points.
 struct Consistency {
   double mean_gap = 0, greatest_gap = 0;  ///< |d(a, b) - d(b, a)| over the greatest distance
-  double slope = 0;                       ///< greatest difference along an edge of the cover, over its length
-  long long differing = 0;                ///< distances that are finite by one method alone
+  double slope = 0;                       ///< greatest |difference of distances along an edge| / length of the edge
+  long long differing = 0;                ///< distances that are finite by only one of the methods
   int unreached = 0;                      ///< pairs without a path
 };
 

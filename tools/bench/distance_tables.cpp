@@ -25,7 +25,7 @@
 namespace tufted::bench {
 namespace {
 
-/// Errors of distances, where the exact distance is finite; infinite if one of these distances is not finite.
+/// Errors of distances where the exact distance is finite; infinite if a distance there is not.
 struct Error {
   double mean = 0;      ///< mean |d - exact| over mean exact
   double greatest = 0;  ///< greatest |d - exact| over greatest exact
@@ -45,7 +45,7 @@ Error errorOf(const VectorXd& distance, const VectorXd& exact) {
 
 const DistanceOptions by_heat = {.method = DistanceMethod::heat};
 
-/// Infinite, and so left out, where a point takes no part.
+/// Sets exact distances of points that take no part to infinity, so that they are left out.
 VectorXd whereActive(VectorXd exact, const Laplacian& laplacian) {
   for (Eigen::Index i = 0; i < exact.size(); ++i)
     if (laplacian.status[i] != PointStatus::active) exact[i] = HUGE_VAL;
@@ -53,7 +53,7 @@ VectorXd whereActive(VectorXd exact, const Laplacian& laplacian) {
 }
 
 /// Calls visit(file, geometry, exact distances from the first corner of the first triangle) for those of CGAL's meshes
-/// that its exact search takes and is done with soon.
+/// on which its exact search works and is fast enough.
 template <class Visit>
 void forEachMesh(const Visit& visit) {
   std::vector<std::filesystem::path> files;
@@ -86,10 +86,10 @@ double exactFrom(const Geometry& geometry, int vertex) {
   return HUGE_VAL;
 }
 
-/// The shares of paths that are longer than exact ones by more than half a percent and than one percent.
+/// Numbers of paths, and of those longer than exact ones by more than half a percent and by more than one percent.
 struct PathCount {
   int pairs = 0, half = 0, one = 0;
-  double least = 0, worst = 0;  ///< by which part of the exact length any is longer
+  double least = 0, worst = 0;  ///< least and greatest excess, as a share of the exact length
 
   void add(double length, double exact) {
     const double share = length / exact - 1;
@@ -105,13 +105,13 @@ struct PathCount {
   }
 };
 
-/// Points of a torus, and exact distances of its triangles from the first of them.
+/// Points of a torus, and their exact distances from the first one on a triangulation.
 struct Torus {
   Points points;
   VectorXd exact;
 };
 
-/// Every other vertex, drawn by the seed, of a mesh twice as fine with a vertex at random in each cell of a grid.
+/// Half of the vertices, chosen by the seed, of a mesh that has a random vertex in each cell of a grid.
 Torus torusCloud(int n, std::uint64_t seed) {
   const int along = static_cast<int>(std::sqrt(2 * n / 2.5)), around = 2 * n / along;
   shapes::Random random(seed);
@@ -136,7 +136,7 @@ Torus torusCloud(int n, std::uint64_t seed) {
   return {vertices(drawn, Eigen::all), exact(drawn)};
 }
 
-/// Best of ten, as the machine may be shared.
+/// Least time of ten runs, because other processes may be running.
 double leastTime(const std::function<void()>& work) {
   double least = HUGE_VAL;
   for (int repetition = 0; repetition < 10; ++repetition) {
@@ -161,7 +161,7 @@ void printMeshes() {
     const Error m = errorOf(DistanceSolver(laplacian).query({source}), exact);
     const Error a = errorOf(DistanceSolver(laplacian, by_heat).query({source}), exact);
     const Error b = errorOf(oracles::classicHeatDistances(geometry.points, geometry.triangles, source), exact);
-    const bool has_theirs = std::isfinite(b.mean);  // else its matrix has no factor
+    const bool has_theirs = std::isfinite(b.mean);  // false if its matrix has no factor
     better += m.mean <= a.mean && m.greatest <= a.greatest ? 1 : 0;
     marching.push_back(m.mean), heat.push_back(a.mean), theirs.push_back(has_theirs ? b.mean : INFINITY);
     std::printf("| %s | %d | %.2f %% | %.1f %% | %.2f %% | %.1f %% | ", file.filename().c_str(),
@@ -184,7 +184,7 @@ void printMeshes() {
 }
 
 void printPaths() {
-  // CGAL's search rounds: from one end of a pair it may miss the shortest way that it finds from the other.
+  // CGAL's search is inexact: from one end of a pair it may miss the shortest path that it finds from the other.
   constexpr double rounding = 1e-9;
   std::printf(
       "| paths | pairs | longer by 0.5 %% | by 1 %% | least excess | greatest | ms for each |\n"
@@ -224,7 +224,7 @@ void printPaths() {
   }
 }
 
-/// Figure 16: three pages at a spine, exact distances by unfolding.
+/// The paper's Figure 16: three pages that meet at a spine, with exact distances by unfolding.
 void printNonmanifold() {
   std::printf(
       "| three pages, slivers | vertices | cotan, mean | max | heat, mean | max | marching, mean | max |\n"
@@ -243,8 +243,8 @@ void printNonmanifold() {
   }
 }
 
-/// Mean over seeds and sources of the errors on clouds of the sphere. Exact distances are those of the places on the
-/// sphere that points with noise, or those moved out of it, are nearest to.
+/// Errors on clouds of the sphere, means over seeds and sources. Exact distances are those between the projections of
+/// the points, noisy or denoised, onto the sphere.
 void printSphere() {
   std::printf(
       "| sphere, distance | marching, mean | max | split twice, mean | max | heat, mean | max |\n"

@@ -5,11 +5,11 @@
 namespace tufted::bench {
 
 void printMeshes();       ///< CGAL's meshes
-void printPaths();        ///< paths on them and on spheres
+void printPaths();        ///< paths on CGAL's meshes and on spheres
 void printNonmanifold();  ///< the paper's Figure 16
 void printSphere();       ///< clouds of the sphere
 void printTorus();        ///< clouds of a torus
-void printSymmetry();     ///< there and back, slopes, and what is reached, by any surface
-void printQuery();        ///< what a query costs
+void printSymmetry();     ///< symmetry and slopes of distances, and points not reached
+void printQuery();        ///< times of queries
 
 }  // namespace tufted::bench

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t first_seed = 101, last_seed = 105;
 
-/// What is done to one face of a solid while another one stays.
+/// A motion of one face of a solid, while another one stays in place.
 struct Edit {
   const char* name;
   double angle;
@@ -40,16 +40,16 @@ const std::vector<Method> methods = {
 /// A face that stays and one that moves.
 struct Handles {
   Plane stays, moves;
-  Eigen::RowVector3d centre;  ///< of the turns
+  Eigen::RowVector3d centre;  ///< centre of rotation
 };
 
-/// @param points of a mesh of the solid
+/// @param points vertices of a mesh of the solid
 Handles handlesOf(const Points& points, const Plane& stays, const Plane& moves) {
   const Points face = points(pointsIn(moves, points), Eigen::all);
   return {stays, moves, face.colwise().maxCoeff() / 2 + face.colwise().minCoeff() / 2};
 }
 
-/// How far each point goes, N x 3.
+/// The displacement of each point, N x 3.
 Points displacement(const Laplacian& laplacian, const Handles& handles, const Edit& edit,
                     const DeformationOptions& options, double* longest_way = nullptr) {
   const Points& points = laplacian.positions;
@@ -67,11 +67,11 @@ Points displacement(const Laplacian& laplacian, const Handles& handles, const Ed
   return moved - points;
 }
 
-/// How far results are from a reference, in the longest way of a handle.
+/// Distances of results from a reference, in units of the longest way of a handle.
 struct Difference {
-  double mean = 0, farthest = 0;  ///< over points; the greatest of all results
+  double mean = 0, farthest = 0;  ///< mean and greatest over points, of the worst result
 
-  /// @param made infinitely far if it throws, as systems of cotan weights may
+  /// @param made computes a result; if it throws, as with cotan weights, the distance is infinite
   void take(const Points& reference, double longest_way, const std::function<Points()>& made) {
     VectorXd lengths = VectorXd::Constant(reference.rows(), HUGE_VAL);
     try {

@@ -1,6 +1,6 @@
-// tufted_bench: what a build costs, per stage. All flags are Google Benchmark's own, for instance
+// tufted_bench: time and memory of builds, per stage. All flags are Google Benchmark's own, for instance
 //   tufted_bench --benchmark_filter='cloud/sphere/1000000/clean/threads:1' --benchmark_out=costs.json
-// What earlier cases leave behind counts as peak memory: run one case alone to read it.
+// Peak memory includes what earlier cases leave behind, so run one case only to measure it.
 #include "bench/costs.h"
 
 int main(int argc, char** argv) {

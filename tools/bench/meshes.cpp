@@ -46,7 +46,7 @@ std::vector<int> randomOrder(Eigen::Index size) {
   return order;
 }
 
-/// A mesh with vertices and triangles in random order: every access to memory misses the cache.
+/// The mesh with vertices and triangles in random order, so that every access to memory misses the cache.
 TriangleMesh shuffled(const TriangleMesh& mesh) {
   const std::vector<int> vertex = randomOrder(mesh.points.rows()), triangle = randomOrder(mesh.triangles.rows());
   TriangleMesh result{Points(mesh.points.rows(), 3), Triangles(mesh.triangles.rows(), 3)};
@@ -76,7 +76,7 @@ std::string offText(const TriangleMesh& mesh) {
   return text;
 }
 
-/// What CGAL takes to read the mesh, from memory: what a user pays before any Laplacian.
+/// Seconds that CGAL takes to read the mesh from memory, which a user spends before any Laplacian.
 double readSeconds(const std::string& text) {
   std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
   std::vector<std::vector<std::size_t>> faces;
@@ -86,7 +86,7 @@ double readSeconds(const std::string& text) {
   return watch.seconds();
 }
 
-/// Seconds of the processor with one thread, then also `whole_per_read`; else of the clock.
+/// CPU time and `whole_per_read` on one thread, otherwise wall-clock time.
 void runMesh(benchmark::State& state, const MeshCase& c) {
   const TriangleMesh mesh = makeMesh(c);
   const std::string text = c.threads == 1 ? offText(mesh) : "";

@@ -4,9 +4,9 @@
 
 namespace tufted::bench {
 
-/// Points as PCL's MovingLeastSquares moves them.
-/// @param radius of the fits, in the points' unit
-/// @param order of the polynomials
+/// Moves points by PCL's MovingLeastSquares.
+/// @param radius radius of the fits, in the points' unit
+/// @param order degree of the polynomials
 Points movedByLeastSquares(const Points& points, double radius, int order);
 
 }  // namespace tufted::bench

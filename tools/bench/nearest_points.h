@@ -21,7 +21,7 @@ class NearestPoints {
     index_.buildIndex();
   }
   const Points& points() const { return points_; }
-  /// Ascending by distance.
+  /// The `count` nearest points, ascending by distance.
   std::vector<std::size_t> of(const Eigen::RowVector3d& place, int count) const {
     const auto k = std::min(static_cast<std::size_t>(count), static_cast<std::size_t>(points_.rows()));
     flann::KNNSimpleResultSet<double> nearest(k);
@@ -37,10 +37,10 @@ class NearestPoints {
   flann::KDTreeSingleIndex<flann::L2_Simple<double>> index_;
 };
 
-/// The plane of some points.
+/// The plane that fits some points best.
 struct Frame {
   Eigen::RowVector3d middle;
-  Eigen::Matrix3d axes;  ///< columns: along the plane, along the plane, normal
+  Eigen::Matrix3d axes;  ///< columns: two directions in the plane, then the normal
 };
 
 inline Frame frameOf(const Points& points) {

@@ -1,4 +1,4 @@
-// How close to the surface points come, and what their Laplacian is worth then.
+// Distances of denoised points from the surface, and the accuracy of their Laplacians.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -30,7 +30,7 @@ struct NoisyShape {
   std::string name;
   std::function<Cloud(std::uint64_t seed)> make;
   double sigma;
-  shapes::SurfaceDistance distance;  ///< to the surface
+  shapes::SurfaceDistance distance;  ///< distance of a point from the surface
   int eigenvalues = 29;
 };
 
@@ -45,7 +45,7 @@ std::vector<NoisyShape> noisyShapes() {
   const auto planes = [](std::uint64_t seed) { return shapes::crossingPlanes(points, seed); };
   const auto to_cylinder = [](const Eigen::RowVector3d& x) { return std::hypot(x[0], x[1]) - 1; };
   const auto to_planes = [](const Eigen::RowVector3d& x) { return std::min(std::abs(x[1]), std::abs(x[2])); };
-  const double half_spacing = std::sqrt(std::numbers::pi / points);  // of the sphere
+  const double half_spacing = std::sqrt(std::numbers::pi / points);  // half the spacing on the sphere
   std::vector<NoisyShape> rows;
   for (const auto& [name, sigma] : {std::pair("sphere .25 %", 0.0025),
                                     {"sphere .5 %", 0.005},

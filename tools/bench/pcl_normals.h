@@ -4,10 +4,10 @@
 
 namespace tufted::bench {
 
-/// Seconds that PCL takes on one thread for the normals of a cloud.
+/// Seconds that PCL takes for the normals of a cloud on one thread.
 struct NormalSeconds {
   double by_neighbors;  ///< pcl::NormalEstimation with 30 neighbours
-  double by_integrals;  ///< pcl::IntegralImageNormalEstimation, average of 3D gradients; NaN without rows
+  double by_integrals;  ///< pcl::IntegralImageNormalEstimation, average of 3D gradients; NaN for one row of points
 };
 
 /// @param points width x height rows

@@ -13,7 +13,7 @@ namespace tufted::bench {
 
 namespace {
 
-/// Random points of the unit sphere with their heights.
+/// Random points of the unit sphere, with their heights as a field.
 Scene sphere(int points, bool has_normals) {
   std::mt19937_64 generator(101);
   const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };

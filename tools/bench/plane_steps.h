@@ -4,10 +4,10 @@
 
 namespace tufted::bench {
 
-/// One step of registration from points to planes (Chen and Medioni 1992), by least squares.
+/// One step of point-to-plane registration (Chen and Medioni 1992), by least squares.
 class PlaneSteps {
  public:
-  /// @param height of the point over a plane
+  /// @param height signed distance of the point from a plane
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double height, double weight = 1) {
     Eigen::Matrix<double, 6, 1> base;
     base << point.cross(normal), normal;

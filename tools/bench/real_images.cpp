@@ -16,26 +16,26 @@
 namespace tufted::bench {
 namespace {
 
-constexpr int widest = 12;       // pixels from the middle of a window to its side
-constexpr double alike = 0.04;   // of the inverse depth: pixels of one surface
-constexpr double jump = 0.06;    // of the inverse depth
-constexpr int beside_jumps = 5;  // pixels
+constexpr int widest = 12;       // pixels from the middle of the largest window to its side
+constexpr double alike = 0.04;   // pixels are on one surface if their inverse depths differ by less than this share
+constexpr double jump = 0.06;    // relative difference of inverse depths above which there is a jump
+constexpr int beside_jumps = 5;  // least distance of predicted pixels from jumps, in pixels
 constexpr int block = 24;
-constexpr double most_error = 12e-3;  // 1 / m: more is another surface
-constexpr int every = 7;              // of the pixels is predicted
+constexpr double most_error = 12e-3;  // 1 / m; a greater error means another surface, and does not count
+constexpr int every = 7;              // one in this many pixels is predicted
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 double inverseAt(const RealImage& image, int pixel) {
   return 1 / image.points(pixel, 2);
 }
 
-/// What is to be predicted: an inverse depth, and where the image shows it.
+/// An inverse depth to be predicted, and its place in the image.
 struct Target {
   double row, column, inverse;
-  int pixel;  ///< the nearest one
+  int pixel;  ///< index of the nearest pixel
 };
 
-/// Whether all pixels near a target are of its surface.
+/// Whether all pixels near a target are on its surface.
 bool isInside(const RealImage& image, const Target& target) {
   for (int i = -beside_jumps; i <= beside_jumps; ++i)
     for (int j = -beside_jumps; j <= beside_jumps; ++j) {
@@ -45,8 +45,8 @@ bool isInside(const RealImage& image, const Target& target) {
   return true;
 }
 
-/// The error of the plane or the quadratic through the pixels of a window; NaN where there are too few.
-/// @param seen the pixels that are, NaN where there is none
+/// The prediction error of the plane or quadratic fitted to the pixels of a window; NaN if these are too few.
+/// @param seen the visible pixels; others are NaN
 double errorOf(const RealImage& seen, const Points& moved, const Target& target, int reach, int terms) {
   Eigen::Matrix<double, 6, 6> left = Eigen::Matrix<double, 6, 6>::Identity() * (terms == 3 ? 1 : 0);
   left.topLeftCorner<3, 3>().setZero();
@@ -68,8 +68,8 @@ double errorOf(const RealImage& seen, const Points& moved, const Target& target,
   return count < terms + 3 ? no_value : left.ldlt().solve(right)[0];
 }
 
-/// The least over all windows of the root of the mean squared error.
-/// @param side of the blocks whose mean error does not count; 0: all counts
+/// The least root mean squared error over all windows.
+/// @param side width of the blocks whose mean error is subtracted; 0: nothing is subtracted
 double bestOf(const RealImage& seen, const Points& moved, const Buffer<Target>& targets, int side) {
   const int in_row = side > 0 ? seen.width / side + 1 : 1;
   double best = std::numeric_limits<double>::infinity();
@@ -115,7 +115,7 @@ bool isWellInside(const RealImage& image, const Pixel& pixel) {
          pixel.column < image.width - 1 - widest;
 }
 
-/// u = focal x / z + column, by least squares over all pixels, and the same of the rows.
+/// A pinhole camera, u = focal x / z + column and likewise for rows, fitted by least squares to all pixels.
 struct Pinhole {
   double focal, row, column;
 
@@ -138,7 +138,7 @@ Pinhole pinholeOf(const RealImage& image) {
   return {found[0], found[1], found[2]};
 }
 
-/// The plane around a pixel; nothing where there is none.
+/// The plane around a pixel; nullopt if there is none.
 std::optional<Frame> planeAt(const RealImage& image, int pixel) {
   std::vector<std::size_t> near;
   for (int i = -widest; i <= widest; i += 4)
@@ -151,7 +151,7 @@ std::optional<Frame> planeAt(const RealImage& image, int pixel) {
   return frameOf(rowsOf(image.points, near, static_cast<int>(near.size())));
 }
 
-/// Brings a view near another onto it.
+/// Registers a view to another one nearby.
 Eigen::Isometry3d registered(const RealImage& image, const RealImage& other, const Pinhole& camera) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   for (double farthest = 0.3; farthest > 2e-3; farthest *= 0.9) {
@@ -165,7 +165,7 @@ Eigen::Isometry3d registered(const RealImage& image, const RealImage& other, con
       const Eigen::Vector3d normal = plane->axes.col(2);
       const double height = (point - plane->middle.transpose()).dot(normal);
       if (std::abs(height) > std::max(0.02, farthest)) continue;
-      steps.add(point, normal, height, std::pow(point.z(), -4));  // as noise grows
+      steps.add(point, normal, height, std::pow(point.z(), -4));  // the variance of noise grows with z^4
     }
     pose = steps.motion() * pose;
   }

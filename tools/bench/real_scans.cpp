@@ -15,13 +15,13 @@
 namespace tufted::bench {
 namespace {
 
-constexpr std::uint64_t seed = 101;  // of the points that are hidden
+constexpr std::uint64_t seed = 101;  // chooses the points that are predicted
 constexpr int most_queries = 4000;
-constexpr double most_height = 5;  // spacings; farther points are no noise
+constexpr double most_height = 5;  // spacings; greater heights are no noise and are clamped to this
 constexpr int icp_rounds = 30;
-constexpr double overlap = 3;  // spacings: a point farther from the other scan lies beside it
+constexpr double overlap = 3;  // spacings; points farther from the other scan are outside of the overlap
 
-/// The height of a place over the plane or the quadratic through points near it.
+/// The height of a position over the plane or quadratic fitted to points near it.
 double heightOver(const Points& points, const Eigen::RowVector3d& place, int degree) {
   const Frame frame = frameOf(points);
   const Eigen::MatrixX3d at = (points.rowwise() - frame.middle) * frame.axes;
@@ -39,8 +39,7 @@ double heightOver(const Points& points, const Eigen::RowVector3d& place, int deg
   return here[2] - terms(here[0], here[1]).dot(coefficients);
 }
 
-/// The root of the mean squared height of the queries, in spacings, by the degree and the number of neighbours that
-/// make it least.
+/// The root mean squared height of the queries, in spacings, for the best degree and number of neighbours.
 double bestFit(const NearestPoints& seen, const Points& queries, double spacing) {
   const std::vector<int> counts = {8, 12, 16, 24, 48, 96};
   Eigen::ArrayXXd squares = Eigen::ArrayXXd::Zero(static_cast<Eigen::Index>(counts.size()), 2);

@@ -15,10 +15,10 @@
 namespace tufted::bench {
 namespace {
 
-/// The mesh whose eigenvalues count as those of the shape has at least so many faces.
+/// The mesh that gives the eigenvalues of a shape is refined to at least this many faces.
 constexpr Eigen::Index fine_faces = 60000;
 
-/// Each triangle cut into four at the middles of its sides.
+/// Cuts each triangle into four at the midpoints of its sides.
 shapes::Mesh divided(const shapes::Mesh& mesh) {
   std::map<std::pair<int, int>, int> middle;
   std::vector<Eigen::RowVector3d> points;
@@ -40,7 +40,7 @@ shapes::Mesh divided(const shapes::Mesh& mesh) {
   return fine;
 }
 
-/// x^T M x for the mass matrix of linear elements.
+/// x^T M x with the consistent mass matrix of linear elements.
 double consistentNorm(const shapes::Mesh& mesh, const VectorXd& x) {
   double sum = 0;
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
@@ -52,8 +52,8 @@ double consistentNorm(const shapes::Mesh& mesh, const VectorXd& x) {
   return sum;
 }
 
-/// Linear elements with lumped masses have eigenvalues that are too small, with their own masses too large by about as
-/// much: the mean of both.
+/// Eigenvalues by linear elements: those with lumped masses are too small, those with consistent masses too large by
+/// about as much, so the mean of both is taken.
 VectorXd eigenvaluesOf(shapes::Mesh mesh, int count) {
   while (mesh.triangles.rows() < fine_faces) mesh = divided(mesh);
   const Spectrum found = spectrum(meshLaplacian(mesh.points, mesh.triangles), count, {.null_space = false});
@@ -77,7 +77,7 @@ shapes::Mesh largestComponent(const Geometry& geometry) {
   mesh.points.resize(geometry.points.rows(), 3);
   mesh.triangles.resize(geometry.triangles.rows(), 3);
   Eigen::Index triangles = 0;
-  std::map<std::array<double, 3>, int> vertex;  // welded
+  std::map<std::array<double, 3>, int> vertex;  // joins equal vertices
   for (std::size_t i = 0; i < label.size(); ++i) {
     if (label[i] != largest) continue;
     const Eigen::RowVector3d x = geometry.points.row(static_cast<Eigen::Index>(i));

@@ -8,34 +8,34 @@
 #include "shapes/shapes.h"
 #include "tufted/types.h"
 
-// Public meshes as shapes with a known spectrum, for judging clouds on what is no sphere.
+// Public meshes as shapes with a known spectrum, for judging clouds of other shapes than spheres.
 
 namespace tufted::bench {
 
-/// The half of the shapes or scans that constants are chosen on, or the half that is looked at once.
+/// The half of the shapes or scans on which constants are chosen, or the half on which they are tested.
 enum class Half { choosing, held_out, both };
 
-/// Meshes of the folder `shapes` and of libcgal-demo, each in one half.
+/// A file of a shape or scan, and its half.
 struct ShapeFile {
   std::filesystem::path path;
   Half half;
 };
-/// @param shapes the folder `real/shapes`
-/// @returns those that exist
+/// The meshes of the folder `shapes` (`real/shapes`) and of libcgal-demo that exist.
 std::vector<ShapeFile> shapeFiles(const std::filesystem::path& shapes);
 
-/// The component with the largest area of a mesh, centred and of size 1.
+/// The component of a mesh with the largest area, centred and scaled to size 1.
 struct RealShape {
   std::string name;
   shapes::Mesh mesh;
   double area = 0;
   VectorXd eigenvalues;  ///< the first positive ones
 };
-/// @param eigenvalues how many; 0: none are found
+/// Reads a shape.
+/// @param eigenvalues number of eigenvalues to compute
 /// @throws IoError
 RealShape realShape(const std::filesystem::path& path, int eigenvalues);
 
-/// Points drawn on a shape, uniformly by area, with noise in all directions, and the normals there without it.
+/// Random points of a shape, uniform by area, with noise in all directions, and the exact normals.
 /// @param noise standard deviation in spacings, the root of the area per point
 shapes::Cloud sampleOf(const RealShape& shape, int points, double noise, std::uint64_t seed);
 

@@ -26,12 +26,12 @@ VectorXd withoutMean(const VectorXd& f, const VectorXd& M) {
   return f.array() - M.dot(f) / M.sum();
 }
 
-/// The error of poissonError(build) for any L and M. Points where M is zero do not count.
+/// poissonError(build) for any L and M. Points of mass 0 do not count.
 double poissonError(const SparseMatrix& L, const VectorXd& M, const Points& points) {
   const auto x = points.col(0).array(), y = points.col(1).array(), z = points.col(2).array();
   constexpr double eigenvalue = 3 * 4;
   const VectorXd expected = withoutMean(x * y * z, M);
-  // Doubling one diagonal entry pins that point, for the right-hand side sums to zero; unused rows become u = 0.
+  // The right side sums to 0, so doubling one diagonal entry makes u = 0 there; empty rows also get u = 0.
   SparseMatrix pinned = L;
   Eigen::Index pin = -1;
   for (Eigen::Index i = 0; i < L.rows(); ++i) {
@@ -60,7 +60,7 @@ bool hasOneLabel(const std::vector<int>& labels, const Triangles& triangles, Eig
   return labels[triangles(t, 1)] == label && labels[triangles(t, 2)] == label;
 }
 
-/// Part of the area of the triangles that `isWrong(row of Build::stars())` says yes to.
+/// Share of the area in triangles for which `isWrong(row of Build::stars())` is true.
 template <class Test>
 double shareOf(const Build& build, const Test& isWrong) {
   const Points& points = build.cloud().points;
@@ -76,7 +76,7 @@ double shareOf(const Build& build, const Test& isWrong) {
   return wrong / whole;
 }
 
-/// 0: floor, ceiling and walls, 1: the box, 2: the pole.
+/// 0 for the labels of floor, ceiling and walls, 1 for the box, 2 for the pole.
 int bodyOf(int label) {
   if (label == static_cast<int>(RoomSurface::pole)) return 2;
   return label < static_cast<int>(RoomSurface::box_west) ? 0 : 1;
@@ -97,16 +97,16 @@ Tags countTags(const Build& build) {
   return tags;
 }
 
-/// Pixels of a depth image, by whether they are tagged and where they ought to be.
+/// Numbers of pixels of a depth image with and beside tags of one kind.
 struct ImageTags {
-  int truth = 0;   ///< beside an edge of the kind
-  int found = 0;   ///< pixels of `truth` that are tagged or beside a tagged pixel
-  int tagged = 0;  ///< tagged as of the kind
-  int right = 0;   ///< pixels of `tagged` at most two pixels from where the kind may be
+  int truth = 0;   ///< pixels beside an edge of the kind
+  int found = 0;   ///< of these, pixels that are tagged or beside a tagged pixel
+  int tagged = 0;  ///< pixels with the tag
+  int right = 0;   ///< of these, pixels at most two pixels from where the tag is allowed
 };
 
-/// @param edges where the kind has to be found
-/// @param allowed where it may be
+/// @param edges pixels that should have the tag
+/// @param allowed pixels that may have the tag
 ImageTags countImageTags(const Build& build, Boundary kind, const std::vector<std::uint8_t>& edges,
                          const std::vector<std::uint8_t>& allowed) {
   const Laplacian& laplacian = build.laplacian();
@@ -165,7 +165,7 @@ const Triangles& Build::stars() const {
 }
 
 double spectrumError(const Build& build, int count) {
-  // Every component adds a zero; where there are only zeros, every eigenvalue is off by itself.
+  // Every component adds an eigenvalue 0; if all are 0, the relative error is 1.
   if (build.laplacian().report.components > count) return 1;
   return spectrumError(build.laplacian().L, build.laplacian().M, build.cloud().eigenvalues, count);
 }

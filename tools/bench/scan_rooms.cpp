@@ -18,7 +18,7 @@ double surfacesOf(const Sample& sample) {
   return sample.truth.surfaces;
 }
 
-/// Rays of every seed start at another part of a step, so that rooms without noise are samples, too.
+/// Azimuths start at another fraction of a step for each seed, so that rooms without noise differ too.
 Sample room(LidarOptions options, std::uint64_t seed) {
   constexpr double golden = 0.6180339887498949;
   options.first_azimuth = golden * static_cast<double>(seed - 1) - std::floor(golden * static_cast<double>(seed - 1));
@@ -27,7 +27,7 @@ Sample room(LidarOptions options, std::uint64_t seed) {
   return {.cloud = shapes::lidar(options, seed), .truth = shapes::scanTruth(shapes::lidar(without_noise), true)};
 }
 
-/// Marks hold at 0.1 and 0.2 degrees; coarser rooms are reported.
+/// The metrics of rooms. Marks apply at 0.1 and 0.2 degrees; coarser rooms are only reported.
 std::vector<Metric> roomMetrics(const LidarOptions& options) {
   Mark components{.variant = "lidar"}, closed = components, area = components, wrong = components;
   const bool is_stretched = options.rings == 16 && options.azimuth_step < 0.15;
@@ -49,7 +49,7 @@ std::vector<Metric> roomMetrics(const LidarOptions& options) {
           {"wrong, across jumps", Format::percent, areaAcrossJumps, wrong, {}}};
 }
 
-/// The metrics that image neighbours are meant to improve, beside the core's search.
+/// The metrics that neighbours by pixels should improve, compared with the search of the core.
 std::vector<Metric> imageMetrics() {
   const auto time = [](const Build& build) { return build.seconds() / build.core().seconds(); };
   const auto search = [](const Build& build) { return build.searchSeconds() / build.core().searchSeconds(); };
@@ -61,7 +61,7 @@ std::vector<Metric> imageMetrics() {
           {"time by the core's", Format::percent, time, {}, {}}};
 }
 
-/// The camera stands at the origin.
+/// A depth image of a camera at the origin.
 Sample depthImage(const shapes::DepthCameraOptions& camera, std::uint64_t seed) {
   shapes::DepthCameraOptions exact = camera;
   exact.depth_step = exact.dropouts = 0;

@@ -14,7 +14,7 @@ using shapes::Sampling;
 using Rule = Mark::Rule;
 using Reference = Mark::Reference;
 
-/// Numbers of eigenvalues with which the marks were found.
+/// Numbers of eigenvalues for which the marks were set.
 constexpr int few_eigenvalues = 29, scan_line_eigenvalues = 32, sphere_eigenvalues = 48, square_eigenvalues = 49;
 
 Metric spectrum(int count, Mark mark, Yardstick yardstick = {}) {
@@ -39,7 +39,7 @@ Mark timesCore(double factor) {
   return {.rule = Rule::at_most, .reference = Reference::core, .factor = factor};
 }
 
-/// Collects cases, with a quarter of the points if quick.
+/// Collects cases, with a quarter of the points if `is_quick`.
 class ShapeCases {
  public:
   ShapeCases(bool is_quick, std::vector<Case>& cases) : is_quick_(is_quick), cases_(cases) {}

@@ -119,7 +119,7 @@ Verdict judge(const Row& row, std::size_t variant) {
     }
     return false;
   };
-  if (!holds(mark.value)) return Verdict::missed;  // a figure that failed is NaN and lands here
+  if (!holds(mark.value)) return Verdict::missed;  // also for NaN, a figure that could not be measured
   return holds(mark.stretch) ? Verdict::stretched : Verdict::held;
 }
 
@@ -147,7 +147,7 @@ void printHeader() {
 
 void printRow(const Row& row, const std::vector<Variant>& variants) {
   for (std::size_t v = 0; v < variants.size(); ++v) {
-    if (row.figures[v].values.empty()) continue;  // not built
+    if (row.figures[v].values.empty()) continue;  // this variant was not built
     printLine(row, variants[v].name, row.figures[v], markText(row), word(judge(row, v)));
   }
   if (!row.yardstick.values.empty()) printLine(row, row.metric->yardstick.name, row.yardstick, "", "");

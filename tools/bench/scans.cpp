@@ -1,5 +1,5 @@
-// tufted_scans: how well a build treats clouds as scanners and noise make them, as a table with the marks it is meant
-// to hold; every variant of the build beside the core on the same clouds. See --help.
+// tufted_scans: a table of how well builds treat clouds of scanners and noisy clouds, with marks to be met; all
+// variants of the build are compared with the core on the same clouds. See --help.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -16,7 +16,7 @@
 namespace tufted::bench {
 namespace {
 
-/// What is measured; marks name them. The first one is what the others are compared with.
+/// All variants, by the names that marks use. Others are compared with the first one.
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> all{{"core", cloudOptions(Preset::clean)},
                                         {"scan", cloudOptions(Preset::scan)},
@@ -27,19 +27,19 @@ const std::vector<Variant>& variants() {
 }
 
 struct Settings {
-  int first_seed = 101;  ///< constants are chosen on seeds below
+  int first_seed = 101;  ///< constants are chosen on smaller seeds
   int seeds = 5;
   std::string filter;
   std::string json;
   bool quick = false;
-  std::vector<std::string> builds;  ///< besides the first one; empty: all
+  std::vector<std::string> builds;  ///< variants besides the first one; empty: all
 
   bool asksFor(const Variant& variant) const {
     return builds.empty() || std::find(builds.begin(), builds.end(), variant.name) != builds.end();
   }
 };
 
-/// One line on stderr when it is a terminal.
+/// Shows a line on stderr if that is a terminal.
 void showProgress(const std::string& line) {
   static const bool is_terminal = isatty(STDERR_FILENO) != 0;
   if (!is_terminal) return;
@@ -47,7 +47,7 @@ void showProgress(const std::string& line) {
   std::fflush(stderr);
 }
 
-/// A figure that cannot be had, such as a spectrum that does not converge, is NaN.
+/// Adds a measurement; NaN if it fails, such as a spectrum that does not converge.
 template <class Measure>
 void measureInto(Figures& figures, Measure measure) {
   const Stopwatch watch;
@@ -59,7 +59,7 @@ void measureInto(Figures& figures, Measure measure) {
   figures.seconds += watch.seconds();
 }
 
-/// The rows of a case whose names the filter is part of.
+/// The rows of a case whose names contain the filter.
 std::vector<Row> rowsOf(const Case& c, const std::string& filter) {
   std::vector<Row> rows;
   for (const Metric& metric : c.metrics) {

@@ -28,7 +28,7 @@ double flannSeconds(const PointsView& points, int k, const Setting& setting) {
   const flann::Matrix<double> rows(const_cast<double*>(points.data()), static_cast<std::size_t>(points.rows()), 3);
   Index index(rows, flann::KDTreeSingleIndexParams(setting.leaf, setting.reorder));
   index.buildIndex();
-  flann::KNNSimpleResultSet<double> nearest(static_cast<std::size_t>(k) + 1);  // the point finds itself
+  flann::KNNSimpleResultSet<double> nearest(static_cast<std::size_t>(k) + 1);  // one more, because a point finds itself
   const flann::SearchParams exact(flann::FLANN_CHECKS_UNLIMITED);
   std::vector<std::size_t> found(static_cast<std::size_t>(k) + 1);
   std::vector<double> distance(found.size());

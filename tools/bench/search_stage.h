@@ -4,15 +4,15 @@
 
 namespace tufted::bench {
 
-/// What any method based on k nearest neighbours pays at least: a tree over the points and one query per point, in
-/// their order, on one thread, in seconds of the processor.
+/// CPU seconds that any method with k nearest neighbours needs at least: for a tree, and a query per point in order, on
+/// one thread.
 struct SearchSeconds {
   double flann;      ///< KDTreeSingleIndex<L2_Simple<double>>, the fastest of six settings
   double nanoflann;  ///< KDTreeSingleIndexAdaptor, leaves of 10 points
 };
 
-/// FLANN with one reused result set per cloud; leaves of 10, 15 and 30 points, with and without a reordered copy of the
-/// points. The first call for a size of cloud tries all six, later ones repeat the fastest.
+/// Measures them. FLANN reuses one result set, and has leaves of 10, 15 or 30 points, with or without a reordered copy
+/// of the points: the first call for a size of cloud tries all six settings, later ones repeat the fastest.
 /// @param points in Morton order
 SearchSeconds searchSeconds(const PointsView& points, int k);
 

@@ -35,7 +35,7 @@ Points halfSphere(int n, std::uint64_t seed) {
   return whole(upper, Eigen::all);
 }
 
-/// Mean and greatest over the seeds of the quasi-conformal error, and flipped triangles.
+/// Prints mean and greatest quasi-conformal error over the seeds, and the number of flipped triangles.
 void printMap(const char* name, bool is_clean, const std::function<Points(std::uint64_t)>& sample) {
   double sum = 0, greatest = 0;
   long long flipped = 0, triangles = 0;
@@ -81,7 +81,7 @@ Tube tube(double unevenness, std::uint64_t seed) {
   return made;
 }
 
-/// The greatest error of the radius of the catenoid between these rings, in the radius.
+/// The greatest relative error of the radius of the catenoid between these rings.
 double catenoidError(const Points& points) {
   double c = 0.85;
   for (int k = 0; k < 50; ++k) c -= (c * std::cosh(0.5 / c) - 1) / (std::cosh(0.5 / c) - 0.5 / c * std::sinh(0.5 / c));
@@ -94,7 +94,7 @@ double catenoidError(const Points& points) {
   return greatest;
 }
 
-/// The same iteration with the cotan matrix of the triangles given.
+/// The iteration of minimalSurface() with the cotan matrix of the triangles.
 Points minimalByCotan(const Tube& start, int iterations) {
   Points x = start.points;
   std::vector<int> rim;
@@ -117,7 +117,7 @@ double fromSphere(const Points& points) {
   return std::sqrt((points.rowwise().norm().array() - 1).square().mean());
 }
 
-/// The mean radius cubed, in that of the unit sphere: how large the volume within is.
+/// The mean cubed radius, the volume relative to that of the unit sphere.
 double volumeShare(const Points& points) {
   return points.rowwise().norm().array().cube().mean();
 }

@@ -32,7 +32,7 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
       ++count;
     }
   }
-  // The stages above follow pointCloudLaplacian; should that change, no figure may come from an older way.
+  // The stages above repeat those of pointCloudLaplacian(); fails if they no longer agree.
   if (count != triangles.rows() || report.dropped_triangles != laplacian.report.dropped_triangles) {
     throw std::logic_error("unionOfStars: " + std::to_string(count) + " triangles instead of " +
                            std::to_string(triangles.rows()) + ": no longer follows pointCloudLaplacian");

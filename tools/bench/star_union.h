@@ -4,11 +4,10 @@
 
 namespace tufted::bench {
 
-/// The union of stars that a cloud's cover is made of, all copies of a triangle counted, before the flips, which join
-/// other corners. Laplacian::cover() is flipped, hence no substitute.
-/// @param points what `laplacian` was built from, with the same `options`
-/// @returns F x 3 rows of `points`; the first corner is the star's own
-/// @throws std::logic_error when this is not the union that `laplacian` was built from
+/// The union of stars under a cloud's cover, with all copies of a triangle, before flips, unlike Laplacian::cover().
+/// @param points,options those that `laplacian` was built from
+/// @return F x 3 indices of points; the first corner is the point of the star
+/// @throws std::logic_error if `laplacian` was built from another union
 Triangles unionOfStars(const Points& points, const CloudOptions& options, const Laplacian& laplacian);
 
 }  // namespace tufted::bench

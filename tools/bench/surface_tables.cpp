@@ -42,7 +42,7 @@ struct Settings {
   bool asksFor(Half of_file) const { return half == Half::both || half == of_file; }
 };
 
-/// A way to build.
+/// A variant of the build.
 struct Column {
   std::string name;
   CloudOptions options;
@@ -54,7 +54,7 @@ std::vector<Column> columns() {
   return {{"clean", cloudOptions(Preset::clean)}, {"default", {}}, {"as measured", as_measured}};
 }
 
-/// Geometric means over seeds of the error of the eigenvalues, and means of the error of the area.
+/// For each column the geometric mean over seeds of the error of eigenvalues, and the mean error of the area.
 struct ShapeRow {
   std::vector<double> error, area;
 };
@@ -82,7 +82,7 @@ void printShapes(const Settings& settings) {
   std::printf("\n|---|---|---|");
   for (std::size_t c = 0; c < builds.size(); ++c) std::printf("---|");
   std::printf("\n");
-  std::map<std::pair<int, double>, std::vector<std::vector<double>>> ratios;  // to the best column, by column
+  std::map<std::pair<int, double>, std::vector<std::vector<double>>> ratios;  // of each column to the best one
   for (const auto& [path, half] : shapeFiles(settings.real / "shapes")) {
     if (!settings.asksFor(half)) continue;
     const RealShape shape = realShape(path, eigenvalues);
@@ -123,7 +123,7 @@ void printVertices(const Settings& settings) {
   }
 }
 
-/// The median angle between normals and those of the surface, in degrees.
+/// The median angle between normals and exact ones, in degrees.
 double medianAngle(const Points& normals, const Points& exact) {
   Buffer<double> angles;
   for (Eigen::Index i = 0; i < exact.rows(); ++i)
@@ -132,7 +132,7 @@ double medianAngle(const Points& normals, const Points& exact) {
   return medianOf(std::move(angles));
 }
 
-/// Normals beside those of planes through so many nearest points, of which nobody knows the best beforehand.
+/// Compares normals with those of planes fitted to fixed numbers of nearest points.
 void printNormals(const Settings& settings) {
   constexpr std::array<int, 4> windows = {10, 16, 30, 48};
   std::printf("| shape | points | noise | planes of 10; 16; 30; 48 | normals() | over the best | signs right |\n");
@@ -185,7 +185,7 @@ void printHidden(const Settings& settings) {
   }
 }
 
-/// Two views of one thing; the second is turned and moved near the first as its README says.
+/// Predicts one scan of the Stanford bunny from a second one, which is first moved to the pose in its README.
 void printSecond(const Settings& settings) {
   const std::filesystem::path scans = settings.real / "scans";
   if (!exists(scans / "bun000.ply") || !exists(scans / "bun045.ply")) return;

@@ -21,7 +21,7 @@ const std::map<std::string, tufted::Preset> presets = {
 const std::map<std::string, tufted::Delaunay> backends = {{"star", tufted::Delaunay::star},
                                                           {"cgal", tufted::Delaunay::cgal}};
 
-/// Options that have no meaning for a mesh.
+/// @throws InvalidInput if one of these options is given with a mesh
 void refuseCloudOptions(const Input& input, const std::vector<const CLI::Option*>& options) {
   for (const CLI::Option* option : options)
     if (option->count() > 0)
@@ -29,7 +29,7 @@ void refuseCloudOptions(const Input& input, const std::vector<const CLI::Option*
                                  " holds a mesh (--as cloud takes its vertices alone)");
 }
 
-/// Azimuths that do not fit the points are the file's fault.
+/// Builds a cloud's Laplacian. @throws IoError instead of InvalidInput for azimuths that do not fit the points
 tufted::Laplacian cloudLaplacian(const tufted::Geometry& geometry, const Input& input, const Build& build) {
   try {
     return tufted::pointCloudLaplacian(geometry.points, build.cloud);
@@ -98,11 +98,10 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   }
   build.doubt = doubtOf(geometry, build.structure);
   if (build.structure == Structure::automatic) {
-    // Who names neighbours or has rings wants a search.
+    // --neighbors and --preset lidar ask for a search.
     const bool may_be_image = build.neighbors->count() == 0 && build.preset != tufted::Preset::lidar;
     build.structure = may_be_image ? structureFor(geometry) : Structure::none;
   }
-  // The pixels around a point are as many as they are.
   if (build.structure == Structure::image && build.neighbors->count() > 0)
     throw tufted::InvalidInput("--neighbors " + std::to_string(build.cloud.neighbors) +
                                " excludes --structure image, which takes the pixels around a point");
@@ -110,7 +109,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   if (build.scan) build.cloud.structure = &*build.scan;
   build.cloud.steps = tufted::cloudSteps(build.preset);
   if (build.denoise) build.cloud.steps.denoise = true;
-  // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
+  // The sensor's position is known if given or stated in the file; that of an organized cloud may be the origin.
   build.viewpoint = {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]};
   const bool is_given = !build.given_viewpoint.empty();
   if (is_given) build.viewpoint = parsePosition(build.given_viewpoint, "--viewpoint");

@@ -8,13 +8,13 @@
 /// Exit codes of the command.
 enum ExitCode : int {
   exit_done = 0,
-  exit_failed = 1,       ///< data or numerics
-  exit_usage = 2,        ///< the command line
-  exit_cancelled = 130,  ///< Ctrl-C, as shells report it; SIGTERM and SIGHUP too
+  exit_failed = 1,       ///< the data or the numerics are at fault
+  exit_usage = 2,        ///< the command line is at fault
+  exit_cancelled = 130,  ///< Ctrl-C, SIGTERM or SIGHUP; as shells report Ctrl-C
 };
 
-/// A subcommand adds itself to the application. When the command line names it, it puts into `run` what then is to
-/// be done; `run` returns an exit code or throws.
+/// Set by the subcommand that the command line names: does its work, and returns an exit code or throws. Each function
+/// below adds a subcommand.
 using Run = std::function<int()>;
 
 void addLaplacian(CLI::App& app, Run& run);
@@ -45,6 +45,6 @@ void addInfo(CLI::App& app, Run& run);
 void addValidate(CLI::App& app, Run& run);
 void addView(CLI::App& app, Run& run);
 
-/// CLI11 takes an argument "[a,b]" of an option that may have several for a list of two. Before it parses, such paths
-/// of validate become "./[a,b]", which names the same; validate shows them without the "./" again.
+/// Prefixes "./" to paths like "[a,b]" of validate, which CLI11 would parse as a list. validate removes the prefix
+/// again.
 void protectBrackets(std::vector<std::string>& arguments);

@@ -21,7 +21,7 @@ const CLI::App* commandNamed(const CLI::App& app, const std::string& name) {
   return nullptr;
 }
 
-/// Whether a word is an option and no value such as -1,0,0, by CLI11's rule.
+/// Whether CLI11 takes a word for an option and not for a value such as -1,0,0.
 bool isOption(const std::string& word) {
   return word.size() > 1 && word[0] == '-' &&
          (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
@@ -33,7 +33,7 @@ bool isNumber(const std::string& word) {
   return std::from_chars(word.data(), end, number).ptr == end && !word.empty();
 }
 
-/// The name in `--name=value` or `-nvalue`.
+/// The option's name in `--name=value` or `-nvalue`.
 std::string nameIn(const std::string& word) {
   return word[1] == '-' ? word.substr(0, word.find('=')) : word.substr(0, 2);
 }
@@ -44,7 +44,7 @@ const CLI::Option* optionNamed(const CLI::App& command, const std::string& name)
   return nullptr;
 }
 
-/// Whether a word is a long option with a single dash in front.
+/// Whether a word is a long option with a single dash.
 bool lacksDash(const CLI::App& command, const std::string& word) {
   return isOption(word) && word[1] != '-' && word.size() > 2 && optionNamed(command, nameIn('-' + word)) != nullptr;
 }
@@ -56,7 +56,7 @@ std::string explainOption(const CLI::App& command, const std::string& name) {
   return "unknown option `" + name + "`" + didYouMean(name, known);
 }
 
-/// What is wrong with the first option that a command does not have; an empty string where it has all.
+/// Explains the first option that a command does not have; an empty string if it has all.
 std::string findUnknownOption(const CLI::App& command, const std::vector<std::string>& arguments) {
   for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
     const std::string& word = arguments[i];
@@ -71,8 +71,8 @@ std::string findUnknownOption(const CLI::App& command, const std::vector<std::st
   return "";
 }
 
-/// What is wrong with the values of a command's options, which exist: one has none, blanks stand in its list instead of
-/// commas, or it is given twice. An empty string where that is not the fault.
+/// Explains a wrong use of a known option: without a value, with blanks instead of commas in its list, or given twice.
+/// An empty string if there is none.
 std::string findMisusedOption(const CLI::App& command, const std::vector<std::string>& arguments) {
   std::set<const CLI::Option*> seen;
   for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
@@ -105,7 +105,7 @@ std::string explainCommand(const CLI::App& app, const std::string& name) {
   std::vector<std::string> known;
   std::string all;
   for (const CLI::App* command : commandsOf(app)) {
-    if (command->get_group().empty()) continue;  // hidden
+    if (command->get_group().empty()) continue;  // hidden in the help
     known.push_back(command->get_name());
     all += (all.empty() ? "" : ", ") + command->get_name();
   }

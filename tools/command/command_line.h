@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-/// Says what is wrong with arguments that the application does not take. A word that it does not know is named, with
-/// the known one that is nearest; otherwise `error` stands, what CLI11 says.
+/// Explains why arguments were refused: names an unknown word and the nearest known one, or else repeats CLI11's
+/// `error`.
 /// @param arguments without the name of the program
-/// @returns one line that ends with where to find help, of the subcommand where there is one
+/// @return one line, which ends with the call for help, of the subcommand if one is named
 std::string explainArguments(const CLI::App& app, const std::vector<std::string>& arguments, const std::string& error);
 
-/// Whether CLI11 would take the arguments, but not as they are meant: it passes over a first word that is no subcommand
-/// when --help follows, and takes -out=DIR for -o ut=DIR.
+/// Whether CLI11 would misread the arguments: it ignores a first word that is no subcommand if --help follows, and
+/// reads -out=DIR as -o ut=DIR.
 bool isMisleading(const CLI::App& app, const std::vector<std::string>& arguments);

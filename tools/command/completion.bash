@@ -1,5 +1,5 @@
-# Completion for bash of the command tufted: subcommands, their options, the values of those that have names, and files.
-# It asks the help of the command itself, so it knows all that the installed version knows.
+# Completion for bash of the command tufted: subcommands, options, named values of options, and files.
+# All of them are taken from the help of the installed command.
 _tufted() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} help
   COMPREPLY=()
@@ -12,7 +12,7 @@ _tufted() {
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$(grep -oE '^  [-a-zA-Z,]*--[a-z-]+' <<<"$help" | grep -oE -- '--[a-z-]+')" -- "$word")
   elif [[ $before == --* ]]; then
-    # An option with named values has them in its line: --preset clean|lidar|scan
+    # The help lists named values of an option in its line: --preset clean|lidar|scan
     mapfile -t COMPREPLY < <(compgen -W "$(grep -oE -- "^  [-a-zA-Z,]*$before [a-z|-]+\|[a-z|-]+" <<<"$help" | sed 's/.* //; s/|/ /g')" -- "$word")
   fi
 }

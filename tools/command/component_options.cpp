@@ -15,13 +15,14 @@
 
 namespace {
 
-/// The option that leaves components out, as the user gave it.
+/// The option that chooses components, as the user gave it.
 std::string nameOf(const ComponentOptions& options) {
   return options.chosen.empty() ? "--min-component " + std::to_string(options.min_points)
                                 : "--component " + options.chosen;
 }
 
-/// The labels that are wanted, of components with so many points.
+/// The labels of the chosen components.
+/// @param sizes number of points of each component
 std::vector<int> chosenOf(const ComponentOptions& options, const std::vector<std::int64_t>& sizes,
                           const Operator& source) {
   const std::string name = nameOf(options);
@@ -61,7 +62,7 @@ void chooseComponents(const ComponentOptions& options, Operator& source, Results
   if (options.chosen.empty() && options.min_points <= 1) return;
   std::vector<int> labels = tufted::componentLabels(source.laplacian);
   const std::vector<std::int64_t> sizes = tufted::componentSizes(labels);
-  if (sizes.empty()) return;  // nothing is active, which is said elsewhere
+  if (sizes.empty()) return;  // no point is active; nothingActive() explains it
   const std::vector<int> chosen = chosenOf(options, sizes, source);
   std::int64_t all = 0, points = 0;
   for (const std::int64_t size : sizes) all += size;

@@ -7,20 +7,19 @@
 
 #include "summary.h"
 
-/// What a command says beside warnings and errors, which stderr has in any case.
+/// What a command prints in addition to warnings and errors, which always go to stderr.
 struct Console {
-  bool quiet = false;    ///< nothing, nor progress
+  bool quiet = false;    ///< nothing, not even progress
   bool verbose = false;  ///< the summary with its details
-  bool json = false;     ///< one JSON object on standard output in place of the summary
+  bool json = false;     ///< a JSON object on standard output instead of the summary
 };
 
-/// Adds -q, --quiet and --json, one of which may be given.
+/// Adds --quiet and --json, which exclude each other.
 void addConsole(CLI::App& command, Console& console);
-/// Adds -q, --json and -v, --verbose, for commands that have details.
+/// Adds --quiet, --json and --verbose, for commands whose summary has details.
 void addVerboseConsole(CLI::App& command, Console& console);
 
-/// Says what a run has done: the lines of the summary or, with --json, what report.json holds, with the members "out",
-/// the folder, and "warnings".
+/// Prints the summary or, with --json, the content of report.json in `out` with the members "out" and "warnings".
 /// @throws IoError when standard output cannot be written
 void sayResults(const Console& console, const Summary& summary, const std::filesystem::path& out,
                 const std::vector<std::string>& warnings);

@@ -56,7 +56,7 @@ void check(Settings& settings, const Operator& source) {
   checkFrames(source);
 }
 
-/// Adds the range of mean curvature. Points that take no part, and those where none was found, have a 0 that is none.
+/// Adds the range of mean curvature, without points that take no part or whose curvature is undetermined.
 void addRange(const tufted::Curvatures& found, const tufted::Laplacian& laplacian, Results& results) {
   const bool fits = found.first.rows() > 0;
   std::int64_t left_out = 0;
@@ -83,7 +83,7 @@ void addRange(const tufted::Curvatures& found, const tufted::Laplacian& laplacia
 Results compute(Settings& settings, Operator& source) {
   Results results;
   source.laplacian.frames = orientedFrames(settings.orienting, source, results);
-  source.geometry.normals = {};  // signs are those of the normals in use
+  source.geometry.normals = {};  // copies get the normals of the signs, not those of the file
   settings.options.threads = source.threads;
   settings.options.progress = source.progress;
   const tufted::Curvatures found = tufted::curvatures(source.laplacian, settings.options);

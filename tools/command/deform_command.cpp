@@ -46,7 +46,7 @@ struct Settings {
   tufted::DeformationOptions options;
   std::vector<int> handles;
   tufted::Points targets;
-  std::vector<Eigen::Index> staying;  ///< which of the handles have no target of their own
+  std::vector<Eigen::Index> staying;  ///< which handles have no target and stay in place
 
   std::vector<std::string> files() const { return {"positions.npy"}; }
 };
@@ -78,7 +78,7 @@ Results compute(Settings& settings, Operator& source) {
   Results results;
   noteLeftOut(settings.handles, source, results);
   settings.options.solver = source.solverOptions();
-  // From where lengths are measured, as all points are moved; of noisy points that is not where the file has them.
+  // All points start from Laplacian::positions, which for noisy points are not those of the file.
   for (const Eigen::Index k : settings.staying)
     settings.targets.row(k) = source.laplacian.positions.row(settings.handles[static_cast<std::size_t>(k)]);
   tufted::DeformationReport made;

@@ -45,7 +45,7 @@ Writes into DIR, renamed one after the other when all are complete:
                  with --format pcd
   report.json    points moved, outliers, noise, mean and farthest way, seconds)";
 
-/// Rings of a scanner are no image.
+/// The values of --structure here, without rings.
 const std::map<std::string, Structure> image_structures = {
     {"automatic", Structure::automatic}, {"none", Structure::none}, {"image", Structure::image}};
 
@@ -81,7 +81,7 @@ int runDenoise(Settings& settings) {
       geometry.points, {.structure = scan ? &*scan : nullptr, .threads = settings.threads, .progress = progress});
   bar.setPoints(0);
   geometry.points = denoised.positions;
-  geometry.normals.resize(0, 3);  // they belong to where the points were
+  geometry.normals.resize(0, 3);  // those of the file belong to the old positions
 
   const tufted::DenoiseReport& done = denoised.report;
   nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", "denoise"}, {"source", settings.input.name()}};
@@ -91,7 +91,7 @@ int runDenoise(Settings& settings) {
       {.name = "positions", .values = denoised.positions, .per_point = false},
       {.name = "noise", .values = denoised.noise}};
   tufted::ResultOptions options = {.copies = settings.copies, .progress = progress};
-  // A path need not be UTF-8.
+  // Paths need not be UTF-8.
   options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   const tufted::Laplacian none;
   const std::string title = "denoise: " + std::filesystem::path(settings.input.name()).filename().string();

@@ -50,7 +50,7 @@ Writes into DIR, renamed one after the other when all are complete:
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
 --format npz,ply,cover: the method needs the cover's triangles.)";
 
-/// So many sources, each with a ball around it, may be looked at without a solver for the whole surface.
+/// Up to this many sources, distances within a radius are computed around each, without a solver for the whole surface.
 constexpr std::size_t few_sources = 64;
 
 const std::map<std::string, tufted::TimeUnit> units = {{"mean", tufted::TimeUnit::mean_edge},
@@ -68,7 +68,7 @@ struct Settings {
   std::optional<tufted::TimeUnit> time_unit;
   bool labels = false, matrix = false;
   std::vector<Place> places;
-  std::vector<tufted::SurfacePoint> inside;  ///< of faces
+  std::vector<tufted::SurfacePoint> inside;  ///< sources inside faces
 
   std::vector<std::string> files() const {
     std::vector<std::string> names = {"distance.npy"};
@@ -77,7 +77,7 @@ struct Settings {
   }
 };
 
-/// Refuses options of the other method.
+/// @throws InvalidInput for options of the other method
 void checkMethod(const Settings& settings) {
   const bool is_heat = settings.options.method == tufted::DistanceMethod::heat;
   if (!is_heat && settings.time_step) throw tufted::InvalidInput("--time-step applies to --method heat");
@@ -106,7 +106,7 @@ void check(Settings& settings, const Operator& source) {
     settings.source.shown = {{"distance", std::ssize(settings.places) + std::ssize(settings.inside)}};
 }
 
-/// Whether a source has a corner on a component.
+/// Whether a source has an active corner.
 bool takesPart(const tufted::SurfacePoint& point, const tufted::Laplacian& laplacian) {
   for (std::size_t k = 0; k < 3; ++k)
     if (point.weights[k] > 0 &&
@@ -115,7 +115,7 @@ bool takesPart(const tufted::SurfacePoint& point, const tufted::Laplacian& lapla
   return false;
 }
 
-/// N x K distances, from each source by itself; infinite from those on no component.
+/// N x K distances, a column for each source; infinite for sources on no component.
 Eigen::MatrixXd fromEach(const tufted::DistanceSolver& solver, const std::vector<tufted::SurfacePoint>& sources,
                          const Operator& source, tufted::DistanceReport& made) {
   Eigen::MatrixXd distance =
@@ -129,7 +129,7 @@ Eigen::MatrixXd fromEach(const tufted::DistanceSolver& solver, const std::vector
   return distance;
 }
 
-/// N distances from the nearest source. Adds which one that is, if asked to.
+/// N distances from the nearest source. With --labels adds to the results which source that is.
 Eigen::MatrixXd addNearest(const Settings& settings, const tufted::DistanceSolver& solver,
                            const std::vector<tufted::SurfacePoint>& sources, const Operator& source,
                            tufted::DistanceReport& made, Results& results) {
@@ -142,13 +142,13 @@ Eigen::MatrixXd addNearest(const Settings& settings, const tufted::DistanceSolve
   return found.distance;
 }
 
-/// Whether only the surface around the sources need be looked at.
+/// Whether pointsWithin() suffices, which visits only the surface around the sources.
 bool isLocal(const Settings& settings) {
   return settings.options.method == tufted::DistanceMethod::marching && std::isfinite(settings.options.maximum) &&
          !settings.labels && !settings.matrix && settings.inside.empty() && settings.places.size() <= few_sources;
 }
 
-/// N distances up to --within, infinite elsewhere.
+/// N distances by pointsWithin(), infinite beyond --within.
 Eigen::MatrixXd addNearby(const Settings& settings, const std::vector<tufted::SurfacePoint>& sources,
                           const Operator& source, Results& results) {
   std::vector<int> points;
@@ -178,9 +178,9 @@ Eigen::MatrixXd addSolved(const Settings& settings, const std::vector<tufted::Su
   return distance;
 }
 
-/// @throws InvalidInput where no other point can be so near
+/// @throws InvalidInput for a radius so small that no other point can be within it
 void checkWithin(double within, const Operator& source) {
-  constexpr double nearest = 0.01;  // of the spacing
+  constexpr double nearest = 0.01;  // least radius, in spacings
   const Extent extent = extentOf(source);
   if (within < nearest * extent.spacing)
     throw tufted::InvalidInput("--within " + numberText(within) +

@@ -10,8 +10,8 @@
 
 namespace {
 
-/// Cuts a spectrum down to its first pairs.
-/// @throws InvalidInput naming the option where there are fewer
+/// Reduces a spectrum to the number of pairs that is given, if any.
+/// @throws InvalidInput naming the option if there are fewer
 void keepFirst(const Eigenpairs& pairs, tufted::Spectrum& spectrum) {
   if (!pairs.is_given) return;
   const auto has = spectrum.values.size();
@@ -91,7 +91,7 @@ tufted::Spectrum firstPairs(const Eigenpairs& pairs, const Operator& source) {
   tufted::Spectrum positive = readPositivePairs(pairs, source);
   const int nulls = nullSpace(source.laplacian);
   if (nulls == 0) return positive;
-  tufted::Spectrum all = tufted::spectrum(source.laplacian, nulls);  // constants alone, nothing is searched
+  tufted::Spectrum all = tufted::spectrum(source.laplacian, nulls);  // constants only, found without iterations
   const Eigen::Index count = nulls + positive.values.size();
   all.values.conservativeResize(count);
   all.vectors.conservativeResize(Eigen::NoChange, count);

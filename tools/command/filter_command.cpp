@@ -74,9 +74,9 @@ double eigenvalueOf(double wavelength) {
   return std::pow(2 * std::numbers::pi / wavelength, 2);
 }
 
-/// Keeps the eigenvectors of waves at least so long.
-/// @returns whether a shorter wave was there, so that none of those that are wanted is missing
-/// @throws InvalidInput where none is so long, for then all points of a component would have one value
+/// Keeps the eigenvectors of waves of at least this length.
+/// @return whether shorter waves were removed, so that no longer one is missing
+/// @throws InvalidInput if none is that long, because the result would be constant on each component
 bool keepLongWaves(const Operator& source, double wavelength, tufted::Spectrum& spectrum) {
   const Eigen::Index had = spectrum.values.size();
   const Eigen::Index kept = (spectrum.values.array() <= eigenvalueOf(wavelength)).count();
@@ -88,8 +88,8 @@ bool keepLongWaves(const Operator& source, double wavelength, tufted::Spectrum& 
   return kept < had;
 }
 
-/// The eigenvectors of waves at least so long, computed.
-/// @throws InvalidInput as keepLongWaves(), and for waves shorter than those of all eigenvectors
+/// Computes the eigenvectors of waves of at least this length.
+/// @throws InvalidInput as keepLongWaves(), and for a length below that of all eigenvectors
 tufted::Spectrum longWaves(const Operator& source, double wavelength) {
   const tufted::Laplacian& laplacian = source.laplacian;
   tufted::SpectrumOptions options = source.spectrumOptions();
@@ -106,8 +106,8 @@ tufted::Spectrum longWaves(const Operator& source, double wavelength) {
                              " points can tell, must be longer, or give --count: " + extentOf(source).text());
 }
 
-/// The eigenvectors of waves at least so long, of those in a folder.
-/// @throws InvalidInput as keepLongWaves(), and where the folder may lack some
+/// Reads the eigenvectors of waves of at least this length from a folder.
+/// @throws InvalidInput as keepLongWaves(), and if the folder may lack some
 tufted::Spectrum longWavesOfFolder(const Operator& source, double wavelength, const Eigenpairs& pairs) {
   tufted::Spectrum spectrum = readPositivePairs(pairs, source);
   const double shortest = spectrum.values.size() > 0 ? waveOf(spectrum.values.tail<1>()[0]) : 0;

@@ -44,7 +44,7 @@ FILE and the options of building are those of `tufted laplacian`; --operator tak
 struct Settings {
   OperatorSettings source;
   Eigenpairs pairs = {.count = 100};
-  int samples = 0;  ///< 0: 16 times, 100 energies
+  int samples = 0;  ///< 0: the default, 16 times or 100 energies
   bool wave = false;
   std::vector<double> times;
 
@@ -54,7 +54,7 @@ struct Settings {
   }
 };
 
-/// A time that is finite and above 0; nothing where the text is none.
+/// Parses a time; nullopt unless it is finite and above 0.
 std::optional<double> parseTime(const std::string& text) {
   double time = 0;
   const char* const text_end = text.data() + text.size();
@@ -73,8 +73,8 @@ void check(Settings& settings, const Operator& source) {
   settings.source.shown = {{settings.wave ? "wks" : "hks", times}};
 }
 
-/// Refuses times in which heat does not reach the next point, which no few eigenvalues can tell, and those in which it
-/// is even to the last digit. In a time t heat goes as far as the root of t.
+/// Refuses times in which heat does not reach the next point, for which a few eigenvalues do not suffice, and times
+/// after which it is constant up to rounding. In a time t heat spreads as far as the root of t.
 void checkTimes(const std::vector<double>& times, const tufted::Spectrum& spectrum, const Operator& source) {
   const double* const end = spectrum.values.data() + spectrum.values.size();
   const double* const smallest = std::upper_bound(spectrum.values.data(), end, 0.0);
@@ -89,7 +89,7 @@ void checkTimes(const std::vector<double>& times, const tufted::Spectrum& spectr
   }
 }
 
-/// The signature, and what it was sampled at.
+/// The signature, and its times or energies.
 std::vector<tufted::ResultArray> signatures(const Settings& settings, const tufted::Laplacian& laplacian,
                                             const tufted::Spectrum& spectrum) {
   if (settings.wave) {

@@ -43,14 +43,14 @@ one or two points, or all on lines: whether any of their points is active shows 
                 depth images half of it
   odd           what to know before trusting a result, one line each: not finite, coincident, outliers, ...)";
 
-// Whole build over the search for neighbours, and bytes per point at its peak, as tufted_bench measures them.
+// Time of a build in units of the search for neighbours, and its peak memory per point in bytes, by tufted_bench.
 constexpr double build_over_search = 3.5;
 constexpr double bytes_per_point = 1000;
-// Both figures for depth images, which are built by their pixels. Of five with 640 x 480 pixels of cameras a build took
-// from 0.4 to 1.2 of what the search for neighbours would, and from 360 to 470 bytes.
+// The same for depth images, which need no search. Five images of 640 x 480 pixels took 0.4 to 1.2 of the time of a
+// search, and 360 to 470 bytes per point.
 constexpr double pixels_over_search = 0.8;
 constexpr double bytes_per_pixel = 500;
-constexpr double coarse_step = 0.1;  ///< of the spacing; then rounding to floats moves points visibly
+constexpr double coarse_step = 0.1;  ///< float steps above this many spacings move points visibly
 
 struct Settings {
   Input input;
@@ -91,7 +91,7 @@ Json describeFile(const Settings& settings, const tufted::Geometry& geometry) {
   return file;
 }
 
-/// Lines that the points of a cloud and the vertices of a mesh have in common.
+/// Adds what clouds and meshes share.
 void addExtent(const tufted::CloudDescription& points, Json& info) {
   info["lowest"] = array(points.lowest);
   info["highest"] = array(points.highest);
@@ -103,8 +103,7 @@ void addExtent(const tufted::CloudDescription& points, Json& info) {
   info["coincident"] = points.coincident;
 }
 
-/// @param asked for neighbours per point
-/// @param structure by which it would be built
+/// Adds what is known of a cloud, with `asked` neighbours per point and the structure that a build would use.
 void addCloud(const tufted::CloudDescription& cloud, int asked, Structure structure, Json& info) {
   const bool is_image = structure == Structure::image;
   info["neighbors"] = cloud.neighbors;
@@ -132,7 +131,7 @@ void addMesh(const tufted::Report& report, Json& info) {
   info["expected_bytes"] = static_cast<double>(report.triangles) * bytes_per_point / 2;
 }
 
-/// One sentence per thing that a user should know before trusting the result.
+/// One sentence for each oddity that a user should know before trusting a result.
 std::vector<std::string> findOddities(const Json& info, bool joins_equal) {
   std::vector<std::string> odd;
   const auto add = [&](const char* member, const char* text) {
@@ -212,7 +211,7 @@ void print(const Json& info) {
   std::printf("%-15s %.2g s, %.0f MB\n", "to expect", real("expected_seconds"), real("expected_bytes") / 1e6);
 }
 
-/// Explains why no point is active, if that is known. Clouds are built only if no point may be active.
+/// Explains why no point would be active; otherwise an empty string. Builds a cloud only if that is possible.
 std::string findNothing(const Settings& settings, const tufted::Geometry& geometry,
                         const tufted::CloudDescription& cloud) {
   const std::int64_t usable = cloud.points - cloud.not_finite - cloud.coincident;
@@ -244,7 +243,7 @@ int runInfo(Settings settings) {
     addMesh(laplacian.report, info);
     nothing = nothingActive(laplacian);
   } else {
-    // Who names neighbours wants a search, as where it is built.
+    // As in a build, --neighbors asks for a search.
     const Structure structure = settings.neighbors->count() == 0 ? structureFor(geometry) : Structure::none;
     addCloud(points, settings.cloud.neighbors, structure, info);
     nothing = findNothing(settings, geometry, points);

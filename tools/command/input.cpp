@@ -30,7 +30,7 @@ namespace {
 tufted::Geometry readAny(const Input& input, const tufted::Progress& progress) {
   constexpr auto automatic = tufted::FileFormat::automatic;
   if (input.isStandardInput()) {
-    std::ios::sync_with_stdio(false);  // std::cin then tells an error from the end
+    std::ios::sync_with_stdio(false);  // without this std::cin cannot tell an error from the end
     return tufted::read(std::cin, input.name(), input.as, automatic, progress);
   }
   std::error_code error;

@@ -7,9 +7,9 @@
 #include "summary.h"
 #include "tufted/io/read.h"
 
-/// The input of a command, as its options state it.
+/// The input of a command.
 struct Input {
-  std::filesystem::path file;  ///< `-` is standard input; may be a pipe, as the shell makes them for <(command)
+  std::filesystem::path file;  ///< `-`: standard input; may be a pipe, such as the shell's <(command)
   tufted::ReadAs as = tufted::ReadAs::automatic;
   bool weld = false;  ///< see MeshOptions::weld
 
@@ -18,15 +18,16 @@ struct Input {
   std::string name() const { return isStandardInput() ? "standard input" : file.string(); }
 };
 
-/// Adds FILE, which is required, and --as; gives FILE.
+/// Adds FILE, which is required, and --as. Returns the option FILE.
 CLI::Option* addInput(CLI::App& command, Input& input);
 
 /// Adds --weld, for commands that take meshes.
 void addWeld(CLI::App& command, Input& input);
 
-/// @throws IoError and Cancelled as tufted::read does; InvalidInput for --weld on a cloud, whose equal points are
-/// merged anyway
+/// Reads the input.
+/// @throws IoError and Cancelled as tufted::read(); InvalidInput for --weld with a cloud, whose equal points are always
+/// merged
 tufted::Geometry readInput(const Input& input, const tufted::Progress& progress);
 
-/// Tells that equal corners of a file without numbered vertices are one point, so indices are not places in the file.
+/// Notes that equal corners of an STL were merged, so that indices of points are not places in the file.
 void addMerged(const tufted::Geometry& geometry, Summary& summary);

@@ -4,7 +4,7 @@
 
 namespace {
 
-volatile std::sig_atomic_t received = 0;  // number of the signal
+volatile std::sig_atomic_t received = 0;  // signal received; 0: none
 
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
 

@@ -1,10 +1,10 @@
 #pragma once
 
-/// From here on the first Ctrl-C, SIGTERM or SIGHUP only sets a flag; a second of its kind ends the process. Signals
-/// that are ignored stay ignored, such as SIGHUP under nohup.
+/// After this call the first Ctrl-C, SIGTERM or SIGHUP only sets a flag; a second one of its kind ends the process.
+/// Signals that are ignored stay ignored, such as SIGHUP under nohup.
 void catchInterrupt();
 
-/// From here on every Ctrl-C, SIGTERM and SIGHUP ends the process again; so does one that has been received already.
+/// After this call Ctrl-C, SIGTERM and SIGHUP end the process again, as does one that was received before.
 void releaseInterrupt();
 
 /// Whether Ctrl-C, SIGTERM or SIGHUP has been received.

@@ -121,7 +121,7 @@ const std::map<std::string, tufted::Format> formats = {
     {"cover", tufted::Format::cover}, {"triangles", tufted::Format::triangles}};
 const std::map<std::string, tufted::Sign> signs = {{"psd", tufted::Sign::psd}, {"igl", tufted::Sign::igl}};
 
-/// What is written, and how.
+/// Adds the options that say what is written, and how.
 void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
   addFormats(command, options.formats, formats,
              "What to write, separated by commas: npz, mtx, mat, spmat, ply, pcd, cover, triangles, or none (npz,ply)");
@@ -129,7 +129,7 @@ void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
   command.add_flag("--dummy", options.dummy, "Dummy values for points that cannot take part, see below");
 }
 
-/// How many points there are, and which take no part.
+/// The number of points, and of those that take no part.
 std::string pointsText(const tufted::Report& report) {
   const std::int64_t left_out = report.points - report.active;
   std::string text = std::to_string(report.points);

@@ -36,7 +36,7 @@ const std::map<std::string, Eigen::Vector3d> axes = {
     {"x", Eigen::Vector3d::UnitX()},   {"y", Eigen::Vector3d::UnitY()},   {"z", Eigen::Vector3d::UnitZ()},
     {"-x", -Eigen::Vector3d::UnitX()}, {"-y", -Eigen::Vector3d::UnitY()}, {"-z", -Eigen::Vector3d::UnitZ()}};
 
-/// WIDTHxHEIGHT; false where it is none.
+/// Parses WIDTHxHEIGHT; false if it is none or out of range.
 bool parseSize(const std::string& text, int& width, int& height) {
   char end = 0;
   if (std::sscanf(text.c_str(), "%5dx%5d%c", &width, &height, &end) != 2) return false;
@@ -77,8 +77,7 @@ std::string endingOf(const std::filesystem::path& file) {
   return ending;
 }
 
-/// Refuses a file that cannot be written, or whose name says that it is something else.
-/// @param endings that names of its format have
+/// Checks that a file can be written, and that its name has one of the `endings` of its format.
 void checkFile(const std::string& option, const std::filesystem::path& file, const std::vector<std::string>& endings,
                const std::filesystem::path& out, const std::vector<NamedInput>& inputs) {
   if (file.empty()) return;
@@ -89,7 +88,7 @@ void checkFile(const std::string& option, const std::filesystem::path& file, con
   if (std::filesystem::is_directory(status)) throw tufted::InvalidInput(name + ": is a directory");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw tufted::InvalidInput(name + ": is no regular file, must be one or missing");
-  if (status.type() == std::filesystem::file_type::none)  // as where links go in circles
+  if (status.type() == std::filesystem::file_type::none)  // such as a cycle of links
     throw tufted::IoError(file.string() + ": cannot write: " + error.message());
   const std::filesystem::path target = behindLinks(file);
   for (const std::filesystem::path& path : {file, target})
@@ -105,7 +104,7 @@ void checkFile(const std::string& option, const std::filesystem::path& file, con
     throw tufted::IoError(file.string() + ": cannot write: no permission in " + folder.string());
 }
 
-/// Adds the fields of a file as they are called here: by their names, and `color` for colours.
+/// Adds the fields of a file by their names, colours as one field `color`.
 void addFields(const tufted::Geometry& geometry, std::vector<ShownField>& fields) {
   for (const tufted::Field& field : geometry.fields) {
     const bool is_color = isOneOf(field.name, {"rgb", "rgba", "red", "green", "blue"});
@@ -131,7 +130,7 @@ int indexOf(const tufted::Scene& scene, const std::string& name) {
   throw tufted::InvalidInput("--color " + name + " is none of " + all + didYouMean(name, known));
 }
 
-/// The first column whose values are not all the same, 0 where there is none: eigenvectors begin with constants.
+/// The first column that is not constant, or 0 if there is none; the first eigenvectors are constant.
 int firstVarying(const Eigen::MatrixXd& columns) {
   constexpr double rounding = 1e-6;
   for (Eigen::Index k = 0; k < columns.cols(); ++k) {
@@ -147,7 +146,7 @@ int firstVarying(const Eigen::MatrixXd& columns) {
   return 0;
 }
 
-/// The options of a picture, for the field that is asked for.
+/// The options of the picture for the field that is shown.
 tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
   tufted::PictureOptions options = look.picture;
   options.field = indexOf(scene, look.color);
@@ -237,7 +236,7 @@ void lookFromSensor(const tufted::Geometry& geometry, Look& look) {
   const Eigen::Vector3d eye = Eigen::Vector3d(pose[0], pose[1], pose[2]) - middle / count;
   if (!eye.allFinite() || !(eye.norm() > 0)) return;
   camera.eye = eye;
-  camera.up = turn * -Eigen::Vector3d::UnitY();  // rows of an image run downwards
+  camera.up = turn * -Eigen::Vector3d::UnitY();  // rows of an image are counted downwards
 }
 
 std::vector<tufted::WholeFile> prepareLook(const tufted::Scene& scene, const Look& look) {

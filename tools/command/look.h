@@ -17,57 +17,56 @@
 
 // A look at results: pages, pictures, and colours of the copies of the points.
 
-/// What a command shows, as its options state it.
+/// What a command shows, by its options.
 struct Look {
   std::filesystem::path png;   ///< empty: no picture
   std::filesystem::path page;  ///< empty: no page
   std::string color;           ///< name of the field that is shown; empty: the first
-  std::optional<int> column;   ///< of this field; without one the first that is not constant
+  std::optional<int> column;   ///< column of this field; empty: the first that is not constant
   tufted::PictureOptions picture;
 
   bool isWanted() const { return !png.empty() || !page.empty(); }
 };
 
-/// Adds --png and the options of what it shows.
+/// Adds --png and the options of pictures.
 void addPictureOptions(CLI::App& command, Look& look);
-/// Adds these, and --view.
+/// Adds the same and --view.
 void addLookOptions(CLI::App& command, Look& look);
 
-/// Refuses files that cannot be written, before anything is computed.
-/// @param out where the results go: it and the folders above it are made if they are missing; empty: nowhere
-/// @param inputs of the command
+/// Checks before the build that the files of a look can be written.
+/// @param out folder of the results, which is made with its parents if missing; empty: none
+/// @param inputs files and folders that the command reads
 /// @throws InvalidInput, IoError
 void checkLook(const Look& look, const std::filesystem::path& out, const std::vector<NamedInput>& inputs);
 
-/// A field that there will be to look at.
+/// A field that can be shown.
 struct ShownField {
   std::string name;
-  Eigen::Index columns = 1;  ///< of which one is shown; 1 also for values that are shown as a whole; 0: not known yet
+  Eigen::Index columns = 1;  ///< columns to choose from; 1 also if all are shown together; 0: not known yet
 };
 
-/// What there is to see of a Laplacian beside results.
+/// The fields of every Laplacian.
 inline const std::vector<ShownField> laplacian_fields = {{"mass"}, {"boundary"}, {"component"}};
 
-/// Refuses a name of --color that is none of the fields that there will be, and a --column that its field does not
-/// have.
-/// @param fields that there will be beside those of the file, the one that is seen first in front
-/// @throws InvalidInput
+/// Checks --color and --column before the build.
+/// @param fields that can be shown in addition to those of the file, beginning with the default
+/// @throws InvalidInput for a field or a column that will not exist
 void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<ShownField> fields);
 
-/// Looks from where the sensor of a depth image stood, where the command line does not say from where.
+/// Sets the camera to the sensor of a depth image, unless the options place it.
 void lookFromSensor(const tufted::Geometry& geometry, Look& look);
 
-/// The page and the picture that are wanted, whole on the disk, but for their names.
-/// @throws InvalidInput for a field or a column that there is not, IoError
+/// Writes the page and the picture of a look without their names, see WholeFile.
+/// @throws InvalidInput for a field or a column that does not exist, IoError
 std::vector<tufted::WholeFile> prepareLook(const tufted::Scene& scene, const Look& look);
 
-/// Gives the copies of the points the colours of the field that --color names: fields red, green and blue, and
-/// MeshLab's quality, in place of those that they have.
+/// Adds the colours of the field --color to the copies of the points: fields red, green, blue and MeshLab's quality,
+/// which replace existing ones.
 void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry& geometry);
 
-/// Writes results, with the colours that --color asks for on the copies of the points, and a look at them where that is
-/// wanted. Whatever is wrong with the look is found before the results replace former ones.
-/// @param scene_of makes the scene, which is made only if it is looked at
+/// Writes results, with the colours of --color on the copies of the points, and the look if one is wanted. Errors of
+/// the look are found before the results replace earlier ones.
+/// @param scene_of makes the scene; called only if it is shown
 /// @param write writes the results
 template <class SceneOf, class Write>
 void writeAndShow(Look& look, tufted::Geometry& geometry, const SceneOf& scene_of, const Write& write) {
@@ -80,5 +79,5 @@ void writeAndShow(Look& look, tufted::Geometry& geometry, const SceneOf& scene_o
   for (tufted::WholeFile& file : files) file.giveName();
 }
 
-/// Says where a look was written to.
+/// Adds the files of a look to the summary.
 void addLook(const Look& look, Summary& summary);

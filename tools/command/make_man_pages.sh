@@ -7,11 +7,11 @@ command=$1 folder=$2
 mkdir -p "$folder"
 words=$("$command" --help | sed -n '/^Options:/,/^$/d; /^Examples:/q; s/^  \([a-z]\{1,\}\) .*/\1/p')
 
-# page NAME SECTION_NAME HELP: a page of which help2man says what the help says.
+# page NAME SECTION_NAME HELP: makes a page from a help text by help2man.
 page() {
   help2man --no-info --no-discard-stderr --name "$2" --help-option "$3" --version-string "$version" \
     --output "$folder/$1.1" "$command"
-  sed -i "s/^tufted \\\\- /$1 \\\\- /" "$folder/$1.1"  # the name of the page, which help2man takes from the program
+  sed -i "s/^tufted \\\\- /$1 \\\\- /" "$folder/$1.1"  # help2man puts the program's name where the page's belongs
 }
 
 version=$("$command" --version | head -n 1)

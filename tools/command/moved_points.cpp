@@ -31,7 +31,7 @@ void movePoints(const std::string& name, const Eigen::MatrixXd& positions, Opera
   results.shown = {{.name = "displacement", .values = way}};
   results.arrays = {{.name = name, .values = positions}};
   source.geometry.points = positions;
-  // They belong to where the points were.
+  // Normals and frames belong to the old positions.
   source.geometry.normals.resize(0, 3);
   source.laplacian.frames = {};
 }

@@ -4,14 +4,14 @@
 #include "options.h"
 #include "tufted/errors.h"
 
-// Results that are new places of the points.
+// Results that are new positions of the points.
 
-/// The triangles of a mesh, or those found on a cloud.
-/// @throws IoError for the Laplacian of a mesh without its triangles
+/// The triangles of a mesh, or surfaceTriangles() of a cloud.
+/// @throws IoError for a folder of a mesh without its triangles
 tufted::Triangles trianglesOf(const Operator& source);
 
-/// Runs `work`, whose arguments were checked: what it still refuses is the surface's fault.
-/// @throws IoError in place of InvalidInput
+/// Runs `work`, whose arguments were checked, so that InvalidInput is due to the surface.
+/// @throws IoError instead of InvalidInput
 template <class Work>
 auto blameSurface(const Operator& source, const Work& work) {
   try {
@@ -24,7 +24,7 @@ auto blameSurface(const Operator& source, const Work& work) {
 /// @throws IoError for a folder without points.ply or points.pcd
 void checkHasPoints(const Operator& source);
 
-/// Takes `positions` for the points that are written and looked at; shown is how far each has moved, and the report
-/// says the farthest and the mean way.
-/// @param name of the array in the results
+/// Replaces the points that are written and shown by `positions`. The field shown is how far each point moved; the
+/// report has the greatest and the mean distance.
+/// @param name name of the array of positions in the results
 void movePoints(const std::string& name, const Eigen::MatrixXd& positions, Operator& source, Results& results);

@@ -39,7 +39,7 @@ void check(Settings&, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   Results results;
   source.laplacian.frames = orientedFrames(settings.orienting, source, results);
-  // The copies of the points show these normals, and not those of the file.
+  // The copies of the points get these normals, not those of the file.
   source.geometry.normals = {};
   results.arrays = {{.name = "normals", .values = source.laplacian.frames.normals, .per_point = false}};
   return results;

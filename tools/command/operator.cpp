@@ -23,7 +23,7 @@ const std::map<std::string, tufted::SolverMethod> methods = {{"automatic", tufte
                                                              {"cholesky", tufted::SolverMethod::cholesky},
                                                              {"multigrid", tufted::SolverMethod::multigrid}};
 
-/// Reads a size in bytes; CLI11's own conversion takes -1 for the largest number.
+/// Parses a size in bytes. Not by CLI11, which converts -1 to the largest number.
 std::optional<std::size_t> parseBytes(const std::string& text) {
   static const std::map<std::string, double> units = {{"", 1},         {"B", 1},       {"kB", 1e3},     {"MB", 1e6},
                                                       {"GB", 1e9},     {"TB", 1e12},   {"KiB", 0x1p10}, {"MiB", 0x1p20},
@@ -64,13 +64,13 @@ void readFolder(const OperatorSettings& settings, Operator& source) {
                           ", and L has " + std::to_string(n) + " rows");
 }
 
-/// What a look shows: the results, on the points where they are now.
+/// The scene of a look: the results on the points, which the command may have moved.
 tufted::Scene shownScene(const OperatorSettings& settings, const Operator& source, const Results& results) {
   const std::string title = settings.command + ": " + std::filesystem::path(source.name).filename().string();
   return sceneOf(title, source.geometry, source.laplacian, results.shown.empty() ? results.arrays : results.shown);
 }
 
-/// What there will be to look at.
+/// The fields that can be shown.
 std::vector<ShownField> fieldsOf(const OperatorSettings& settings, const std::vector<std::string>& files) {
   std::vector<ShownField> fields = settings.shown;
   if (fields.empty())
@@ -91,7 +91,7 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
                      {"denoised", built.denoised},
                      {"noise", built.noise}};
   tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress};
-  // A path need not be UTF-8.
+  // Paths need not be UTF-8.
   options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (source.geometry.points.rows() == 0 && source.points() > 0) options.copies.clear();
   if (results.write)
@@ -100,14 +100,14 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
     tufted::writeResults(settings.out, source.laplacian, source.geometry, results.arrays, options);
 }
 
-/// Why nothing can be computed, if no point is active; otherwise an empty string.
+/// Explains why nothing can be computed if no point is active; otherwise an empty string.
 std::string whyNothing(const Operator& source) {
   const bool is_built = !source.laplacian.status.empty() || source.points() == 0;
   return is_built ? nothingActive(source.laplacian) : "";
 }
 
-/// Takes a step of a command. If it throws because no point is active, the data is at fault and not the command line,
-/// which is right for other files.
+/// Runs a step of a command. @throws IoError instead of InvalidInput if no point is active, because then the data is at
+/// fault and not the command line
 template <class Step>
 auto blameData(const Operator& source, const Step& step) {
   try {
@@ -141,7 +141,7 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   command.option_defaults()->group("Looking at the result");
   addLookOptions(command, settings.look);
   addVerboseConsole(command, settings.console);
-  command.option_defaults()->group("Options");  // those of the subcommand, which stand first
+  command.option_defaults()->group("Options");  // the group of the subcommand's own options, listed first
   std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
   unused.insert(unused.end(), settings.build.building.begin(), settings.build.building.end());
   command.parse_complete_callback([file, folder, unused, &command, &settings] {

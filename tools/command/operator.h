@@ -22,12 +22,12 @@
 #include "tufted/solver.h"
 #include "tufted/spectrum.h"
 
-// Options and steps that the commands which use a Laplacian have in common: its source, and where results go.
+// Options and steps that commands which use a Laplacian share: its source, and where results go.
 
 /// How systems are solved.
 struct Solving {
   tufted::SolverMethod method = tufted::SolverMethod::automatic;
-  std::size_t memory_limit = 0;  ///< bytes; 0: as the library chooses
+  std::size_t memory_limit = 0;  ///< bytes, see SolverOptions
 };
 
 /// The options of a command that uses a Laplacian.
@@ -41,9 +41,9 @@ struct OperatorSettings {
   ComponentOptions components;
   Console console;
   Look look;
-  /// The fields that the results will be to look at, set by the check of a command; empty: its arrays, of one column.
+  /// The fields as which the results will be shown, set by the command's check; empty: its arrays, of one column each.
   std::vector<ShownField> shown;
-  std::vector<NamedInput> inputs;  ///< all that it reads, FILE and the folder too
+  std::vector<NamedInput> inputs;  ///< all files and folders that the command reads
   std::vector<tufted::Format> copies = {tufted::Format::ply};
   bool needs_cover = false;  ///< whether the command needs the cover, not only L and M
 
@@ -51,24 +51,25 @@ struct OperatorSettings {
   std::string name() const { return folder.empty() ? input.name() : folder.string(); }
 };
 
-/// Adds FILE or --operator, --out, --format and the options of building and of solving; checks that they fit together.
+/// Adds FILE, --operator, --out, --format and the options of building and of solving, and checks that they fit
+/// together.
 void addOperatorOptions(CLI::App& command, OperatorSettings& settings);
 
 /// A Laplacian, and the points it belongs to.
 struct Operator {
   std::string name;           ///< name of the source in messages
-  tufted::Geometry geometry;  ///< 0 points: a folder without points.ply and points.pcd
+  tufted::Geometry geometry;  ///< without points for a folder without points.ply and points.pcd
   tufted::Laplacian laplacian;
   Solving solving;
   int threads = 0;
   tufted::Progress progress;
-  /// The component of each point before options left some out, and the option that did; empty: all are there.
+  /// The component of each point before some were left out, and the option that left them out; empty: none was.
   std::vector<int> all_components = {};
   std::string chosen_by = {};
-  tufted::Points moved;                          ///< where --denoise has moved the points; 0 x 3 without it
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< as the options state it; 0: they do not
+  tufted::Points moved;                          ///< the points as moved by --denoise; 0 x 3 without it
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< direction given by --up; 0: none
 
-  /// From where a command moves the points.
+  /// The points from which a command that moves points starts.
   const tufted::Points& startingPoints() const { return moved.rows() > 0 ? moved : geometry.points; }
   int points() const {
     return static_cast<int>(std::max<std::size_t>(geometry.points.rows(), laplacian.status.size()));
@@ -87,21 +88,21 @@ struct Results {  // NOLINT(bugprone-exception-escape): moves of its json, which
   nlohmann::ordered_json report;  ///< members of report.json beside "tufted", "command" and "source"
   Summary summary;
   std::vector<std::string> warnings = {};  ///< one line for each warning
-  /// What is looked at, where it is not the arrays.
+  /// What is shown instead of `arrays`, if not empty.
   std::vector<tufted::ResultArray> shown = {};
-  /// Writes the results in place of writeResults, if set.
+  /// Writes the results instead of writeResults(), if set.
   std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};
 };
 
-/// Checks options before the Laplacian is built, which may take long. The points are known by then, and with --operator
-/// the whole Laplacian.
+/// Checks options before the Laplacian is built, which may take long. The source already has its points and, with
+/// --operator, its Laplacian.
 using Check = std::function<void(const Operator& source)>;
-/// Computes the results. It may change the points, of which copies are written.
+/// Computes the results. It may change the points, whose copies are written.
 using Compute = std::function<Results(Operator& source)>;
 
 /// Loads the Laplacian, computes, writes the results and then the summary.
-/// @param files names of the results beside the copies of the points and report.json
-/// @returns an exit code
+/// @param files names of the results except the copies of the points and report.json
+/// @return an exit code
 int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
                     const Compute& compute);
 
@@ -111,8 +112,8 @@ struct OperatorCommand {
   std::shared_ptr<Settings> settings;
 };
 
-/// Adds a subcommand with the options of all that use a Laplacian.
-/// @param Settings has a member `source`, OperatorSettings, and files(), as runWithOperator takes them
+/// Adds a subcommand that uses a Laplacian, with the options of all such subcommands.
+/// @tparam Settings has a member `source` (OperatorSettings) and files() for runWithOperator()
 template <class Settings>
 OperatorCommand<Settings> addOperatorCommand(CLI::App& app, Run& run, const char* name, const char* description,
                                              const char* footer, Results (*compute)(Settings&, Operator&),

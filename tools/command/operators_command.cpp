@@ -39,7 +39,7 @@ struct Settings {
   std::vector<std::string> files() const { return {"operators.npz"}; }
 };
 
-/// What a folder may lack.
+/// Checks that a folder has what is needed.
 void check(Settings& settings, const Operator& source) {
   const tufted::Geometry& geometry = source.geometry;
   if (source.points() > 0 && geometry.points.rows() == 0)
@@ -56,7 +56,7 @@ Results compute(Settings& settings, Operator& source) {
   tufted::GradientOptions fitting = settings.gradients;
   fitting.threads = source.threads;
   fitting.progress = source.progress;
-  // Older folders do not have the positions, where noisy points were moved.
+  // Folders of older versions have no positions; slopes are then measured between the points.
   const tufted::Points& measured = source.laplacian.positions.rows() > 0 ? source.laplacian.positions : geometry.points;
   const tufted::Gradients gradients =
       geometry.is_mesh

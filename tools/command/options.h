@@ -17,7 +17,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 
-// What the options of several subcommands have in common.
+// Helpers for options of several subcommands.
 
 /// The values of --as.
 inline const std::map<std::string, tufted::ReadAs> kinds = {{"cloud", tufted::ReadAs::cloud},
@@ -30,12 +30,11 @@ inline std::string numberText(double number) {
   return text.str();
 }
 
-/// So many things: "1 component", "2 components".
+/// A count with its noun: "1 component", "2 components".
 inline std::string countText(std::int64_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-/// The names in `values`.
 template <class T>
 std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
   std::vector<std::string> names;
@@ -43,7 +42,7 @@ std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
   for (const auto& [name, value] : values) names.push_back(name);
   return names;
 }
-/// The names in `values` in one word, separated by "|".
+/// The names in `values`, separated by "|".
 template <class T>
 std::string choiceOf(const std::map<std::string, T>& values) {
   std::string all;
@@ -58,7 +57,7 @@ std::string refuseName(const std::string& word, const std::map<std::string, T>& 
   return word + " is none of " + choiceOf(values) + didYouMean(word, namesIn(values));
 }
 
-/// An option that takes one of the names in `values`. The target may be optional.
+/// Adds an option that takes one of the names in `values`. The target may be std::optional.
 template <class Target, class T>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, Target& target, const std::map<std::string, T>& values,
                        const std::string& help) {
@@ -67,12 +66,12 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Target& target, c
   return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(choiceOf(values));
 }
 
-/// A check: a path must not be empty.
+/// Check of a path: the message if it is empty, otherwise an empty string.
 inline std::string notEmpty(const std::string& path) {
   return path.empty() ? "must not be empty" : "";
 }
 
-/// The words of a list, between its commas.
+/// Splits a list at its commas.
 inline std::vector<std::string> wordsOf(const std::string& list) {
   std::vector<std::string> words;
   std::istringstream stream(list + ',');
@@ -80,9 +79,9 @@ inline std::vector<std::string> wordsOf(const std::string& list) {
   return words;
 }
 
-/// An option that takes words with commas between them, none of them empty. Given again it takes further ones.
-/// @param check the message for a word that is none; an empty string if it is one
-/// @param set takes all words
+/// Adds an option that takes words separated by commas, none of them empty, and may be repeated.
+/// @param check returns the message for a word that is not valid, otherwise an empty string
+/// @param set called with all words
 template <class Check, class Set>
 CLI::Option* addList(CLI::App& app, const std::string& name, const std::string& help, const Check& check,
                      const Set& set) {
@@ -105,14 +104,14 @@ CLI::Option* addList(CLI::App& app, const std::string& name, const std::string& 
       ->check(check_all);
 }
 
-/// A message of the library, which begins with the function, without one of a class: that is no word the user knows.
+/// Removes the function's name from a message of the library if it is a member of a class, which users do not know.
 inline std::string withoutClass(std::string message) {
   if (const std::size_t colon = message.find(": "); message.find("::") < colon) message.erase(0, colon + 2);
   return message;
 }
 
-/// Runs `work`; a value that it refuses is said to be that of an option.
-/// @param option and its value, as the user gave them
+/// Runs `work`, and adds the option to the message of InvalidInput.
+/// @param option name and value, as the user gave them
 template <class Work>
 auto forOption(const std::string& option, const Work& work) {
   try {
@@ -122,7 +121,7 @@ auto forOption(const std::string& option, const Work& work) {
   }
 }
 
-/// The numbers from `least` to `most` as messages call them; the ends of what a double can be are 0 and infinity.
+/// The text of a range for messages; the least and the greatest double stand for 0 and infinity.
 template <class T>
 std::string rangeText(T least, T most) {
   std::ostringstream text;
@@ -134,7 +133,7 @@ std::string rangeText(T least, T most) {
   return text.str();
 }
 
-/// An option that takes a number in [least, most].
+/// Adds an option that takes a number in [least, most].
 template <class T, class Target>
 CLI::Option* addNumber(CLI::App& app, const std::string& name, Target& target, T least, T most,
                        const std::string& help) {

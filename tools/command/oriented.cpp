@@ -29,7 +29,7 @@ void checkFrames(const Operator& source) {
 
 void checkPositions(const Operator& source) {
   const tufted::Laplacian& laplacian = source.laplacian;
-  // Without points it is yet to be built.
+  // An empty status means that the Laplacian is not yet built.
   if (!laplacian.status.empty() && laplacian.positions.rows() == 0) refuse(source, "measured_positions.npy");
 }
 

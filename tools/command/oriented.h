@@ -5,11 +5,11 @@
 #include "operator.h"
 #include "tufted/normals.h"
 
-// Oriented normals, for the subcommands that need to know which side of the surface is in front.
+// Oriented normals, for subcommands that need normals of one sign.
 
 /// Options of orientedFrames().
 struct Orienting {
-  bool consistent = false;  ///< whether the sensor's position is left out of account
+  bool consistent = false;  ///< whether to ignore the sensor's position
 };
 
 /// Adds --consistent.
@@ -21,8 +21,9 @@ void checkFrames(const Operator& source);
 /// @throws IoError for a folder without measured_positions.npy
 void checkPositions(const Operator& source);
 
-/// The frames of a cloud as they are, or those of a mesh's triangles.
+/// The frames of a cloud's Laplacian, or meshFrames() of a mesh.
 tufted::Frames framesOf(const Operator& source);
 
-/// Frames that face the sensor, if its position is known and they may, else consistent ones. Says in the results which.
+/// Frames that face the sensor if its position is known and not ignored, otherwise consistent ones. Notes which in the
+/// results.
 tufted::Frames orientedFrames(const Orienting& orienting, const Operator& source, Results& results);

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A path from the root, as far as it exists without links.
+/// The absolute path, with links resolved as far as it exists.
 fs::path wholePath(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::weakly_canonical(path, error);

@@ -6,8 +6,8 @@
 #include <string>
 
 double peakMemory() {
-  constexpr double kilobytes = 1024;  // per MB; Linux counts in KB
-  // What getrusage says began with the memory of whoever started this process: it survives exec.
+  constexpr double kilobytes = 1024;  // per MB
+  // Not by getrusage(), whose peak includes that of the process that called exec().
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
     double peak = 0;

@@ -8,7 +8,6 @@
 
 namespace {
 
-/// A pin: its place, its values and its name in messages.
 struct Pin {
   std::vector<double> place, values;
   std::string name;
@@ -21,7 +20,8 @@ Pin parsePin(const std::string& text) {
           "--pin " + text};
 }
 
-/// @param columns that say where
+/// Reads pins from a file.
+/// @param columns number of columns that name the point: 1 for an index, 3 for a position
 void readPins(const std::filesystem::path& path, std::ptrdiff_t columns, std::vector<Pin>& pins) {
   if (path.empty()) return;
   for (const Row& row : readRows(path)) {

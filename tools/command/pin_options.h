@@ -10,7 +10,6 @@
 #include "point_options.h"
 #include "tufted/interpolation.h"
 
-/// The pins as the user gives them.
 struct PinOptions {
   std::vector<std::string> pins;
   std::filesystem::path by_index, by_position;
@@ -21,14 +20,15 @@ struct PinOptions {
 /// Adds --pin, --pins and --pins-near.
 void addPinOptions(CLI::App& command, PinOptions& options);
 
-/// Pins before the nearest points are known.
+/// Pins whose positions are not yet matched to points.
 struct PlacedPins {
   std::vector<Place> places;
   Eigen::MatrixXd values;
 
-  /// Notes in `results` which points were nearest.
+  /// Finds the points nearest to positions, and notes them in `results`.
   tufted::Pins locate(const Operator& source, Results& results) const;
 };
 
-/// @throws InvalidInput for no pin, pins that are not valid, or numbers of values that differ; IoError as readRows()
+/// Parses the pins.
+/// @throws InvalidInput for no pin, invalid pins, or different numbers of values; IoError as readRows()
 PlacedPins placePins(const PinOptions& options, int points);

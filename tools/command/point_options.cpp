@@ -19,7 +19,7 @@ bool parseNumber(const std::string& word, double& number) {
   return error == std::errc() && stop == end;
 }
 
-/// The distance from a point to the farthest of its neighbours.
+/// The distance from a point to its farthest neighbour.
 double spacingAt(int point, const tufted::Laplacian& laplacian, const tufted::Points& points) {
   double farthest = 0;
   for (tufted::SparseMatrix::InnerIterator entry(laplacian.L, point); entry; ++entry)
@@ -27,10 +27,10 @@ double spacingAt(int point, const tufted::Laplacian& laplacian, const tufted::Po
   return farthest;
 }
 
-/// Says which point was taken for a position.
-/// @param number of the position, from 0
+/// Notes which point is nearest to a position.
+/// @param number number of the position, from 0
 void addNearest(const Place& place, int point, std::size_t number, const Operator& source, Results& results) {
-  constexpr std::size_t most = 10;  // lines; the report has all
+  constexpr std::size_t most = 10;  // most lines of the summary; the report has all
   const double distance = (source.geometry.points.row(point).transpose() - place.position).norm();
   const double spacing = spacingAt(point, source.laplacian, source.geometry.points);
   results.report["nearest"].push_back({{"position", {place.position.x(), place.position.y(), place.position.z()}},
@@ -108,7 +108,7 @@ int indexOf(const Row& row, int points) {
 
 std::vector<int> locate(const std::vector<Place>& places, const Operator& source, Results& results) {
   std::vector<int> points;
-  std::vector<std::size_t> by_position;  // which of them are
+  std::vector<std::size_t> by_position;  // indices into `points` of those named by position
   for (const Place& place : places) {
     if (place.index < 0) by_position.push_back(points.size());
     points.push_back(place.index);
@@ -149,7 +149,7 @@ std::vector<Place> NamedPoints::places(int points) const {
 
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what) {
   command.add_option("--source", points.indices, what + ", by index from 0")
-      ->allow_extra_args(false)  // what follows may be FILE
+      ->allow_extra_args(false)  // the next word may be FILE
       ->type_name("I,J,...");
   command.add_option("--near", points.positions, what + ", as the point nearest to this")
       ->allow_extra_args(false)

@@ -8,10 +8,10 @@
 
 #include "operator.h"
 
-/// Numbers separated by commas. @throws InvalidInput naming the option
+/// Parses numbers separated by commas. @throws InvalidInput naming the option
 std::vector<double> parseNumbers(const std::string& text, const std::string& option);
 
-/// Reads X,Y,Z. @throws InvalidInput naming the option unless it is three finite numbers
+/// Parses X,Y,Z. @throws InvalidInput naming the option unless these are three finite numbers
 Eigen::Vector3d parsePosition(const std::string& text, const std::string& option);
 
 /// Numbers in a line of a text file.
@@ -20,43 +20,42 @@ struct Row {
   std::vector<double> numbers;
 };
 
-/// Reads lines of numbers with blanks or commas between them; empty lines and text after a # are skipped.
-/// @throws IoError for a file that cannot be read or other words
+/// Reads lines of numbers separated by blanks or commas. Empty lines and text after a # are skipped.
+/// @throws IoError for a file that cannot be read or a word that is no number
 std::vector<Row> readRows(const std::filesystem::path& path);
 
 /// A point that the user names: by index, or as the nearest to a position.
 struct Place {
-  int index = -1;                                      ///< -1: by position
+  int index = -1;                                      ///< -1: named by position
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< finite
   std::string name;                                    ///< name of the option or line that gives it, for messages
 };
 
 /// The point that numbers name.
-/// @param numbers an index or x, y, z
-/// @param name of the option or line that gives them, for messages
-/// @throws InvalidInput unless it is an index of one of so many points, or a finite position
+/// @param numbers an index, or x, y, z
+/// @param points number of points
+/// @param name option or line that gives them, for messages
+/// @throws InvalidInput unless they are an index in [0, points) or a finite position
 Place placeOf(const std::vector<double>& numbers, int points, const std::string& name);
 
-/// The index of a point that a line names.
+/// The index of a point in a line of a file.
 /// @throws IoError for a line of several numbers, InvalidInput as placeOf()
 int indexOf(const Row& row, int points);
 
-/// Finds the points that the user names. Notes in the summary and the report of `results` which are nearest to
-/// positions and how far away they are, and warns of those that are farther from the position than from all their
-/// neighbours.
-/// @throws InvalidInput for a position where the source has no points
+/// Finds the points that the user names. Notes in `results` which points are nearest to positions and how far away, and
+/// warns of those that are farther away than their farthest neighbour.
+/// @throws InvalidInput for a position if the source has no points
 std::vector<int> locate(const std::vector<Place>& places, const Operator& source, Results& results);
 
-/// Points that the user names with options.
+/// Values of the options that name points.
 struct NamedPoints {
-  std::vector<std::string> indices;  ///< lists with commas
+  std::vector<std::string> indices;  ///< lists separated by commas
   std::vector<std::string> positions;
   std::filesystem::path file;
 
-  /// @returns all points, those by index first
-  /// @throws as placeOf() and readRows()
+  /// Parses all of them, those by index first. @throws as placeOf() and readRows()
   std::vector<Place> places(int points) const;
 };
 
-/// Adds --source I,J,... and --near X,Y,Z, which may be repeated, and --sources FILE.
+/// Adds --source I,J,... and --near X,Y,Z, which may be repeated, and --sources TEXT.
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what);

@@ -10,14 +10,14 @@
 
 namespace {
 
-/// "48 s", "2 min 5 s".
+/// A time as text: "48 s", "2 min 5 s".
 std::string duration(double seconds) {
   const auto whole = std::lround(seconds);
   return whole < 60 ? std::to_string(whole) + " s"
                     : std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
 }
 
-/// "1.3 M points/s", "520 k points/s".
+/// A rate as text: "1.3 M points/s", "520 k points/s".
 std::string rate(double points_per_second) {
   char text[32];
   const bool is_large = points_per_second >= 1e6;
@@ -47,12 +47,12 @@ void ProgressBar::show(std::string_view stage, double fraction) {
   std::string pace;
   if (points_ > 0 && fraction > 0 && elapsed > 0.1)
     pace += ", " + rate(fraction * static_cast<double>(points_) / elapsed);
-  // Too early it would jump.
+  // An estimate made too early would jump.
   if (elapsed > 1 && fraction > 0.01 && fraction < 1)
     pace += ", " + duration(elapsed * (1 - fraction) / fraction) + " left";
   else if (elapsed > 1)
     pace += ", " + duration(elapsed);
-  // Return to the first column, and erase what an earlier, longer stage left behind.
+  // Returns to the first column, and erases the rest of a longer line.
   std::fprintf(stderr, "\r%s %3.0f %% %s%s\033[K", bar.c_str(), std::clamp(fraction, 0.0, 1.0) * 100, stage_.c_str(),
                pace.c_str());
   std::fflush(stderr);

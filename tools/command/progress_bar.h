@@ -7,11 +7,11 @@
 
 #include "tufted/options.h"
 
-/// One line on stderr that is written over and over: the stage, how much of it is done, how fast, and how long it will
-/// still take. Nothing at all when stderr is not a terminal.
+/// A line on stderr that is overwritten as work proceeds: the stage, the fraction that is done, the rate, and the time
+/// left. Shows nothing if stderr is not a terminal.
 class ProgressBar {
  public:
-  /// @param is_quiet shows nothing
+  /// @param is_quiet whether to show nothing
   explicit ProgressBar(bool is_quiet);
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
@@ -19,7 +19,7 @@ class ProgressBar {
 
   /// @param fraction of the stage that is done, in [0, 1]
   void show(std::string_view stage, double fraction);
-  /// How many points the stages that follow go through, whose rate is shown; 0: no rate.
+  /// Sets how many points the next stages process, for the rate; 0: no rate is shown.
   void setPoints(std::int64_t points) { points_ = points; }
   /// Removes the line.
   void clear();

@@ -32,7 +32,7 @@ void addJoint(const std::optional<tufted::WeakJoint>& joint, Results& results) {
                       part(joint->second, joint->second_points).c_str());
 }
 
-/// Adds what the reports of heat have in common.
+/// Adds what reports of heat methods share.
 template <class Report>
 void addHeat(const Report& report, const tufted::SolverReport& solver, Results& results) {
   results.report["report"] = {{"rounds", report.rounds},     {"iterations", report.iterations},

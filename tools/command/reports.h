@@ -6,11 +6,8 @@
 #include "tufted/spectrum.h"
 #include "tufted/vector_heat.h"
 
-/// Adds the report of a solve to report.json, as its member "report", and to the summary.
+/// Adds a report to the summary and, as member "report", to report.json.
 void addReport(const tufted::SolveReport& report, Results& results);
-/// Adds the report of a spectrum to report.json, as its member "report", and to the summary.
 void addReport(const tufted::SpectrumReport& report, Results& results);
-/// Adds the report of distances to report.json, as its member "report", and to the summary.
 void addReport(const tufted::DistanceReport& report, const tufted::SolverReport& solver, Results& results);
-/// Adds the report of the vector heat method to report.json, as its member "report", and to the summary.
 void addReport(const tufted::VectorHeatReport& report, const tufted::SolverReport& solver, Results& results);

@@ -19,7 +19,7 @@ Eigen::MatrixXd valuesOf(const tufted::Field& field, Eigen::Index rows) {
   return values;
 }
 
-/// Red, green and blue of a packed colour.
+/// Red, green and blue of packed colours.
 Eigen::MatrixXd unpacked(const tufted::Field& field, Eigen::Index rows) {
   Eigen::MatrixXd values(rows, 3);
   for (Eigen::Index i = 0; i < rows; ++i) {
@@ -68,11 +68,11 @@ FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
 
 std::vector<std::string> columnNamesOf(const std::string& name, Eigen::Index columns) {
   if (name != "curvature" || (columns != 1 && columns != 4)) return {};
-  return {"mean H", "Gaussian K", "greatest k1", "least k2"};  // short enough for legends
+  return {"mean H", "Gaussian K", "greatest k1", "least k2"};  // names short enough for legends
 }
 
 SceneField boundaryField(Eigen::MatrixXd values) {
-  values.array() -= 1;  // none is grey
+  values.array() -= 1;  // Boundary::none becomes -1, drawn grey
   return {.name = "boundary",
           .kind = FieldKind::label,
           .values = std::move(values),

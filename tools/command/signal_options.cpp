@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXd;
 using tufted::Field;
 
-/// The red, green and blue of the points, which PCD packs into four bytes that are not a number.
+/// Red, green and blue of the points, which PCD packs into four bytes.
 MatrixXd unpack(const Field& field, Eigen::Index n) {
   MatrixXd colors(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -35,7 +35,7 @@ MatrixXd valuesOf(const Field& field, Eigen::Index n) {
   return values;
 }
 
-/// The names that --field takes: the fields, which come before what readers take out of them.
+/// The names that --field accepts: the fields, then what readers move out of them, such as x, y, z.
 std::vector<std::string> namesOf(const tufted::Geometry& geometry) {
   std::vector<std::string> names;
   for (const Field& field : geometry.fields) names.push_back(field.name);
@@ -44,7 +44,7 @@ std::vector<std::string> namesOf(const tufted::Geometry& geometry) {
   return names;
 }
 
-/// A field, or the fields NAME_0, NAME_1, ... that PLY has for a field of several values.
+/// A field, or the fields NAME_0, NAME_1, ... as which PLY stores a field of several values.
 std::vector<MatrixXd> columnsOf(const std::string& name, const tufted::Geometry& geometry) {
   const Eigen::Index n = geometry.points.rows();
   const std::vector<std::string> names = namesOf(geometry);
@@ -67,7 +67,7 @@ std::vector<MatrixXd> columnsOf(const std::string& name, const tufted::Geometry&
 }  // namespace
 
 void addSignalOptions(CLI::App& command, SignalOptions& options, const std::string& what) {
-  const auto any = [](const std::string&) { return std::string(); };  // the fields are not read yet
+  const auto any = [](const std::string&) { return std::string(); };  // the file is not read yet
   const auto set = [&options](const std::vector<std::string>& names) { options.fields = names; };
   addList(command, "--field", what + ": fields of the points, separated by commas", any, set)->type_name("NAME,...");
   command.add_option("--values", options.values, what + ": a .npy file of N values or N x c")

@@ -50,7 +50,7 @@ struct Settings {
   int iterations = 1;
   bool keep_volume = false;
   std::filesystem::path fixed_file;
-  Eigen::MatrixXd values;  ///< 0 columns: positions
+  Eigen::MatrixXd values;  ///< 0 columns: positions are smoothed
   std::vector<std::uint8_t> fixed;
 
   bool hasSignals() const { return !signals.fields.empty() || !signals.values.empty(); }

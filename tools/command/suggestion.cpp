@@ -12,7 +12,7 @@ std::string withoutDashes(const std::string& word) {
   return letters;
 }
 
-/// The least number of letters to add, drop, change or swap with the next that makes one word of the other.
+/// The least number of letters to insert, delete, replace or swap with the next that turns one word into the other.
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -29,7 +29,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// How far a word is from a known one. A word that begins with the other one counts as one mistake.
+/// The distance of a word from a known one: editDistance(), but 1 if one is a prefix of the other.
 std::size_t distanceOf(const std::string& word, const std::string& known) {
   const std::size_t shorter = std::min(word.size(), known.size());
   const bool is_part = shorter > 2 && word.compare(0, shorter, known, 0, shorter) == 0;
@@ -42,7 +42,7 @@ std::size_t distanceOf(const std::string& word, const std::string& known) {
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known) {
   const std::string typed = withoutDashes(word);
   const std::string* nearest = nullptr;
-  // One letter in three may be wrong, in short words one; of two letters nothing is left then.
+  // One letter in three may be wrong, in short words one.
   std::size_t least = std::max<std::size_t>(typed.size() + 1, 3) / 3 + 1;
   for (const std::string& candidate : known) {
     const std::string letters = withoutDashes(candidate);

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-/// Lines for people, of a name and what it says each.
+/// Lines for people, each with a name and a text.
 class Summary {
  public:
   [[gnu::format(printf, 3, 4)]] void add(const char* name, const char* format, ...);
-  /// A line for those who ask for more.
+  /// Adds a line that only --verbose shows.
   [[gnu::format(printf, 3, 4)]] void addDetail(const char* name, const char* format, ...);
   /// Adds all lines of another summary.
   void append(const Summary& next);

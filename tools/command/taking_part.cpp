@@ -6,7 +6,7 @@
 
 namespace {
 
-/// Why a point takes no part; an empty string where it does.
+/// Why a point takes no part; an empty string if it does.
 std::string whyLeftOut(int point, const Operator& source) {
   const tufted::Laplacian& laplacian = source.laplacian;
   const tufted::PointStatus status = laplacian.status[laplacian.representative[point]];
@@ -20,7 +20,7 @@ std::string whyLeftOut(int point, const Operator& source) {
 }  // namespace
 
 void noteLeftOut(const std::vector<int>& points, const Operator& source, Results& results, bool others) {
-  constexpr std::size_t most = 3;  // reasons in the warning; the report has all points
+  constexpr std::size_t most = 3;  // most reasons in the warning; the report has all points
   std::vector<int> left_out;
   std::string why;
   for (const int point : points) {

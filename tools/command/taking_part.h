@@ -4,12 +4,12 @@
 
 #include "operator.h"
 
-// Points that the user names, and which lie on no component of the Laplacian.
+// Points that the user names although they take no part.
 
-/// Says in the results which of the points named are left out, and why: by a warning, a line of the summary, and
+/// Notes in the results which of the named points take no part, and why: a warning, a line of the summary, and
 /// `left_out` in the report.
-/// @param others whether something else is named that may take part
-/// @throws InvalidInput where nothing is left
+/// @param others whether the user also named something else that may take part
+/// @throws InvalidInput if none of the points takes part and there are no others
 void noteLeftOut(const std::vector<int>& points, const Operator& source, Results& results, bool others = false);
 
 /// @throws InvalidInput for a point that takes no part, naming it and why

@@ -13,7 +13,7 @@ CLI::Option* addTimeStep(CLI::App& command, std::optional<double>& time_step, co
 
 void checkTimeStep(const std::optional<double>& time_step, double time, const Operator& source) {
   if (!time_step) return;
-  constexpr double shortest = 0.01;  // of the spacing
+  constexpr double shortest = 0.01;  // least distance that heat spreads, in spacings
   const Extent extent = extentOf(source);
   const double length = std::sqrt(time);
   if (length >= shortest * extent.spacing && length <= extent.size) return;

@@ -17,7 +17,7 @@
 
 namespace {
 
-/// One line on stderr.
+/// Prints a message in one line on stderr, and returns `code`.
 int fail(std::string message, int code) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::fprintf(stderr, "tufted: %s\n", message.c_str());
@@ -47,7 +47,7 @@ constexpr const char* examples =
 `tufted help SUBCOMMAND` explains one, with an example. Files are PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL or VTK.
 Exit codes: 0 done, 1 data or numerics, 2 usage, 130 cancelled.)";
 
-/// What people want, and the subcommands that do it, in the order of the help.
+/// A purpose and the subcommands for it, in the order of the help.
 struct Purpose {
   const char* name;
   std::vector<void (*)(CLI::App& app, Run& run)> add;
@@ -70,7 +70,7 @@ void addSubcommands(CLI::App& app, Run& run) {
   }
 }
 
-/// `tufted`, `tufted help` and `tufted help SUBCOMMAND` are other words for --help.
+/// Replaces `tufted`, `tufted help` and `tufted help SUBCOMMAND` by calls with --help.
 std::vector<std::string> withHelp(std::vector<std::string> words) {
   if (words.empty()) return {"--help"};
   if (words[0] != "help") return words;
@@ -81,9 +81,9 @@ std::vector<std::string> withHelp(std::vector<std::string> words) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(bugprone-exception-escape): without memory for the options there is nothing to be done
+// NOLINTNEXTLINE(bugprone-exception-escape): without memory for the options nothing can be done
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of the write, not a crash
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding a file size limit is then an error of write(), not a crash
   catchInterrupt();
   CLI::App app("A Laplacian for point clouds and triangle meshes of any connectivity.", "tufted");
   app.set_version_flag("-V,--version", versionText(), "Print version, licence and what is built in, and exit");
@@ -97,17 +97,17 @@ int main(int argc, char** argv) {
   try {
     std::vector<std::string> arguments = words;
     protectBrackets(arguments);
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 expects them in reverse
     app.parse(std::move(arguments));
   } catch (const CLI::Success& help) {
     return app.exit(help);
-  } catch (const CLI::ExtrasError&) {  // whose own text has the words in reverse
+  } catch (const CLI::ExtrasError&) {  // its own text lists the words in reverse
     std::string rest;
     for (const std::string& word : app.remaining(true)) rest += " " + word;
     return refuse("not expected:" + rest);
   } catch (const CLI::ParseError& error) {
     return refuse(error.what());
-  } catch (const tufted::InvalidInput& error) {  // of values that are taken apart while the words are
+  } catch (const tufted::InvalidInput& error) {  // thrown by functions that parse values
     return refuse(error.what());
   }
   return runCommand(run);

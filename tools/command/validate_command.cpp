@@ -71,33 +71,33 @@ said behind the file's name. The exit code is 1 if a file FAILED, and 0 otherwis
 checked, of the intrinsic triangulation if --format had `cover`. A folder without it all, or one whose arrays do not fit
 each other, is REFUSED.)";
 
-constexpr double most_seconds = 1e9;     // that --time may have
-constexpr std::size_t most_text = 4096;  // bytes that are shown of what a process said that gave no result
+constexpr double most_seconds = 1e9;     // greatest value of --time
+constexpr std::size_t most_text = 4096;  // most bytes shown of the output of a process without a result
 
 struct Settings {
   std::vector<std::filesystem::path> paths, operators;
   tufted::ReadAs as = tufted::ReadAs::automatic;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  double seconds = 600;       ///< limit per file, 0 for none
-  std::optional<int> memory;  ///< limit per file in MB
-  bool is_one = false;        ///< judge the only file in this process
+  double seconds = 600;       ///< limit per file; 0: none
+  std::optional<int> memory;  ///< limit per file, in MB
+  bool is_one = false;        ///< whether to judge the only file in this process
   Console console;
 };
 
-/// The command line on which this program judges one file.
+/// The arguments with which this program judges one file.
 std::vector<std::string> wordsForOne(const std::filesystem::path& path, bool is_operator, const Settings& settings) {
-  const double seconds = settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // to_string has six digits
+  const double seconds = settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // printed with six decimals
   std::vector<std::string> words = {
       "validate", "--one", "--jobs", std::to_string(settings.jobs), "--time", std::to_string(seconds)};
   if (settings.memory) words.insert(words.end(), {"--memory", std::to_string(*settings.memory)});
   for (const auto& [word, as] : kinds)
     if (as == settings.as) words.insert(words.end(), {"--as", word});
   if (is_operator) words.emplace_back("--operator");
-  words.push_back(std::filesystem::absolute(path).string());  // which never looks like an option
+  words.push_back(std::filesystem::absolute(path).string());  // absolute, so that it does not look like an option
   return words;
 }
 
-/// How a process ended that gave no result.
+/// Describes how a process without a result ended.
 std::string describeEnd(int status, const std::string& text, const Settings& settings) {
   std::ostringstream reason;
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
@@ -114,7 +114,7 @@ std::string describeEnd(int status, const std::string& text, const Settings& set
   return reason.str();
 }
 
-/// What is known about a file whose process has ended.
+/// The row of a file whose process has ended.
 Json describeFile(const std::string& file, int status, double seconds, const std::string& text,
                   const Settings& settings) {
   Json row = {{"file", file}, {"result", "FAILED"}, {"reasons", Json::array()}, {"seconds", seconds}};
@@ -131,7 +131,7 @@ void print(const std::string& line) {
     throw tufted::IoError("standard output: cannot write the results");
 }
 
-/// The rows in the order of the files, each printed as soon as all before it are known.
+/// Collects the rows, and prints them in the order of the files, each as soon as all before it are known.
 class Results {
  public:
   Results(std::size_t files, const Console& console)
@@ -155,7 +155,7 @@ class Results {
               static_cast<double>(known_) / static_cast<double>(rows_.size()));
   }
 
-  /// @throws std::runtime_error where files failed
+  /// Prints the counts. @throws std::runtime_error if files failed
   void sumUp(double seconds) {
     bar_.clear();
     const int ok = counts_["OK"], empty = counts_["EMPTY"], refused = counts_["REFUSED"], failed = counts_["FAILED"];
@@ -181,7 +181,7 @@ class Results {
   bool as_lines_, as_json_;
   ProgressBar bar_;
   std::size_t known_ = 0, printed_ = 0;
-  std::map<std::string, int> counts_;  ///< by result
+  std::map<std::string, int> counts_;  ///< number of files by result
 };
 
 constexpr const char* protection = "./";
@@ -190,7 +190,7 @@ bool isInBrackets(const std::string& argument) {
   return argument.starts_with('[') && argument.ends_with(']');
 }
 
-/// A transformation, as CLI11 has them.
+/// Undoes protectBrackets(). A transformation for CLI11.
 std::string withoutProtection(std::string& path) {
   if (path.starts_with(protection) && isInBrackets(path.substr(std::strlen(protection))))
     path.erase(0, std::strlen(protection));
@@ -206,12 +206,12 @@ int runValidate(Settings settings) {
     files.push_back({folder});
   }
   settings.jobs = std::min<int>(settings.jobs, static_cast<int>(files.size()));
-  // Under a limit of memory OpenBLAS's threads look for room for ever, and the process cannot end.
+  // With a memory limit OpenBLAS's threads would retry allocations for ever, and the process would not end.
   setenv("OPENBLAS_NUM_THREADS", "1", 1);
 
   Results results(files.size(), settings.console);
-  std::vector<std::vector<std::string>> words;  // for each process
-  std::vector<std::size_t> numbers;             // and of its file
+  std::vector<std::vector<std::string>> words;  // arguments of each process
+  std::vector<std::size_t> numbers;             // index of its file
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (files[i].refusal.empty()) {
       words.push_back(wordsForOne(files[i].path, i >= first_operator, settings));
@@ -229,14 +229,14 @@ int runValidate(Settings settings) {
   return exit_done;
 }
 
-/// In the process of one file.
+/// Judges the only file, in a process for it.
 int runOne(const Settings& settings) {
   const bool is_operator = !settings.operators.empty();
   const int processors = static_cast<int>(std::thread::hardware_concurrency());
   return judge({.path = is_operator ? settings.operators.front() : settings.paths.front(),
                 .is_operator = is_operator,
                 .as = settings.as,
-                // Every further thread would allocate a stack, and so make a limit of memory depend on the machine.
+                // Each thread allocates a stack, which would make a memory limit depend on the machine.
                 .threads = settings.memory ? 1 : std::max(1, processors / settings.jobs),
                 .seconds = settings.seconds,
                 .memory = settings.memory});
@@ -261,7 +261,7 @@ void addValidate(CLI::App& app, Run& run) {
                                  ->check(notEmpty)
                                  ->transform(CLI::Validator(withoutProtection, ""));
   command.add_option("--operator", settings->operators, "A Laplacian that `tufted laplacian --out DIR` wrote")
-      ->allow_extra_args(false)  // what follows may be PATH
+      ->allow_extra_args(false)  // the next word may be PATH
       ->check(notEmpty)
       ->transform(CLI::Validator(withoutProtection, ""))
       ->type_name("DIR");
@@ -272,7 +272,7 @@ void addValidate(CLI::App& app, Run& run) {
             "Limit per file in MB: what one thread allocates for it (none)")
       ->type_name("MB");
   addChoice(command, "--as", settings->as, kinds, "Take files that may be either as one of them")->needs(paths);
-  command.add_flag("--one", settings->is_one)->group("");  // not in the help
+  command.add_flag("--one", settings->is_one)->group("");  // hidden in the help
   addConsole(command, settings->console);
   command.callback([&run, settings] {
     if (settings->paths.empty() && settings->operators.empty()) throw CLI::RequiredError("PATH or --operator");

@@ -2,5 +2,5 @@
 
 #include <string>
 
-/// What --version prints: the version, the licence of this binary, and what it was built with.
+/// The output of --version: the version, the licence of this binary, and what it was built with.
 std::string versionText();

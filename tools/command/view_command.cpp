@@ -42,15 +42,15 @@ using tufted::FieldKind;
 using tufted::Scene;
 using tufted::SceneField;
 
-/// Whether an array of a folder is shown first: results are, and what belongs to the Laplacian is not.
+/// The order in which arrays of a folder are shown: 0 for results, 1 for what belongs to the Laplacian.
 int orderOf(const std::string& name) {
   const char* const last[] = {"M", "boundary", "components", "status"};
   return std::find(std::begin(last), std::end(last), name) == std::end(last) ? 0 : 1;
 }
 
-/// Adds the path where there is one, and the arrays of a row per point, in place of the fields of the copy of the
-/// points that they are also in.
-/// @param names of the files of the result
+/// Adds the path, if there is one, and the arrays with a row per point. These replace the fields of the same names in
+/// the copy of the points.
+/// @param names names of the files of the result
 void addArrays(const std::filesystem::path& folder, const std::vector<std::string>& names, Scene& scene) {
   std::vector<std::filesystem::path> files;
   for (const std::string& name : names)
@@ -123,7 +123,7 @@ Scene sceneOfFolder(const std::filesystem::path& folder, tufted::Geometry& geome
   return scene;
 }
 
-/// Keeps the fields that are named, in this order.
+/// Keeps only the named fields, in this order.
 void choose(const std::vector<std::string>& names, Scene& scene) {
   if (names.empty()) return;
   std::vector<std::string> known;

@@ -41,7 +41,7 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
-  std::map<int, std::vector<int>> points;  // by handle
+  std::map<int, std::vector<int>> points;  // points of each handle
   int count = 0;
   std::size_t width = 0;
   for (const Row& row : readRows(settings.file)) {

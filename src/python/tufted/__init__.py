@@ -1,9 +1,10 @@
-"""Laplacians of point clouds and triangle meshes, and what is computed from them.
+"""Laplacians of point clouds and triangle meshes, and algorithms on them.
 
 PointCloud, Mesh and read build L and M, and have all algorithms as methods. point_cloud_laplacian, mesh_laplacian,
 PointCloudHeatSolver and the mesh solvers have the names and arguments of robust_laplacian and potpourri3d.
 
-L is minus the Laplacian, integrated: positive semidefinite. M holds areas. L u = M f; L x = lambda M x.
+L is minus the Laplacian, integrated: symmetric, positive semidefinite. M holds areas. Poisson equation: L u = M f.
+Eigenproblem: L x = lambda M x.
 """
 from ._clouds import Mesh, PointCloud, denoise, load, read
 from ._drop_in import (MeshHeatMethodDistanceSolver, MeshVectorHeatSolver, PointCloudHeatSolver, compute_distance,

@@ -1,5 +1,6 @@
-"""Arguments as callers give them, checked and turned into the arrays that the library takes. Messages name the function
-and the argument."""
+"""Checks arguments and converts them to the arrays that the library takes. Messages name the function and the
+argument.
+"""
 import contextlib
 
 import numpy as np
@@ -12,7 +13,9 @@ _LARGEST = 2**31 - 1
 
 @contextlib.contextmanager
 def named(function, **names):
-    """Errors under the name of the function that the caller has called, with the names of its arguments."""
+    """Gives errors raised within the name of the function that the user called. `names` maps our names of arguments
+    to those of that function.
+    """
     try:
         yield
     except (InvalidInput, SolverFailure) as error:
@@ -30,12 +33,12 @@ def _array(function, name, value):
                            "values (array.compressed() leaves the others out)")
     try:
         return np.asarray(value)
-    except ValueError as error:  # rows of unlike length
+    except ValueError as error:  # rows of different lengths
         raise InvalidInput(f"{function}: {name} is no array: {error}") from None
 
 
 def _numbers(function, name, value):
-    if np.ma.is_masked(value) and value.dtype.kind in "fiu":  # NaN takes no part, as in a file
+    if np.ma.is_masked(value) and value.dtype.kind in "fiu":  # masked entries become NaN, which takes no part
         value = value.astype(np.float64).filled(np.nan)
     array = _array(function, name, value)
     if array.size == 0 and array.dtype == object:
@@ -50,7 +53,7 @@ def _shape(array):
 
 
 def rows_of_three(function, name, value, rows=None):
-    """N x 3 float64 in C order; an array that is one already is not copied."""
+    """N x 3 float64 in C order; such an array is not copied."""
     array = _numbers(function, name, value)
     if array.size == 0 and array.ndim < 2:
         array = array.reshape(0, 3)
@@ -81,7 +84,7 @@ def integers(function, name, value):
 
 
 def indices(function, name, value, count, empty=False):
-    """One or several indices of `count` points, as an array."""
+    """One or several indices in [0, count), as a one-dimensional int32 array."""
     array = integers(function, name, value)
     if array.ndim > 1:
         raise InvalidInput(f"{function}: {name} has the shape {_shape(array)}, must be one index or a list")
@@ -105,7 +108,9 @@ def triangles(function, name, value):
 
 
 def columns(function, name, value, rows):
-    """`rows` values or `rows` x c. Returns an array of two dimensions, and whether the caller gave one."""
+    """`rows` values, or `rows` x c. Returns a two-dimensional float64 array, and whether the caller's had one
+    dimension.
+    """
     array = _numbers(function, name, value)
     if array.ndim == 0 and rows == 1:
         array = array.reshape(1)
@@ -115,7 +120,7 @@ def columns(function, name, value, rows):
 
 
 def pins(function, pins_given, values, count):
-    """Indices and values of pins: a dict, or indices with `values` beside them."""
+    """Indices, values (P x c), and whether values had one dimension. From a dict, or from indices with `values`."""
     if values is None:
         if not isinstance(pins_given, dict):
             raise InvalidInput(f"{function}: values is None, must be given unless pins is a dict of values by index")
@@ -149,7 +154,7 @@ def callback(function, value):
 
 
 def sparse(parts, size):
-    """A csc_matrix that shares the three arrays."""
+    """A csc_matrix that shares the memory of its three arrays."""
     matrix = scipy.sparse.csc_matrix(parts, shape=(size, size), copy=False)
     matrix.has_sorted_indices = matrix.has_canonical_format = True
     return matrix

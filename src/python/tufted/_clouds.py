@@ -27,22 +27,26 @@ def _pixels(function, points, image, origin):
 
 
 class PointCloud(Surface):
-    """The Laplacian of a point cloud, which is built at once.
+    """The Laplacian of a point cloud, built by the constructor.
 
-    points: N x 3, float32 or float64 (not copied if contiguous); rows with NaN keep their index and are skipped.
+    points: N x 3, float32 or float64 (float64 in C order is not copied), in any unit of length; rows that are not
+    finite keep their index and take no part.
     preset: "scan" for real scans, "clean" for exact samples, "lidar" for spinning scanners.
-    neighbors: k >= 3, of each point.
-    normals: N x 3, used for the tangent planes, of any length; None: planes are fitted.
-    viewpoint: where the sensor stood, 3 values; normals then face it.
-    image: (width, height) of a depth image: pixels take the place of neighbours, noise is smoothed along the rays.
-    rings: N numbers of the scanner's ring that a point lies on, or "find"; the rings then give the neighbours.
+    neighbors: number k >= 3 of nearest neighbours of each point.
+    normals: N x 3, any length, used with their sign for the tangent planes; None: planes are fitted.
+    viewpoint: position of the sensor, 3 values; normals then face it.
+    image: (width, height) of a depth image, whose pixels are the N points row by row: the pixels around a point are its
+    neighbours, and noise is smoothed along the rays.
+    rings: N numbers of the rings of a spinning scanner, negative where unknown, or "find" to find them; neighbours are
+    then taken from the rings.
     neighborhoods: N x k indices used as they are; negative ones are padding.
-    mollify: no edge is shorter than this times the longest side of the smaller of its triangles, 0 to 1; 0: flat
-    triangles stay flat.
-    gluing: "star" or "vertex-pair". order: "angle", "area" or "random" (by seed). delaunay: "star" or "cgal".
-    threads: at most this many; 0: all. solver: "automatic", "cholesky" or "multigrid". memory_limit: bytes for factors,
-    0: half of what is available. These three are for all methods, too.
-    progress: a function of stage and fraction.
+    mollify: no edge is shorter than this times the longest side of the smaller of its triangles, in [0, 1]; 0: no edge
+    is lengthened.
+    gluing: "star" or "vertex-pair". order: of the faces around an edge: by "angle", "area" or "random" with `seed`.
+    delaunay: "star" or "cgal" finds the Delaunay stars.
+    threads: at most this many; 0: one per processor. solver: "automatic", "cholesky" or "multigrid". memory_limit: most
+    bytes for factors; 0: half of the available memory. All methods use these three.
+    progress: see Surface.
     """
 
     def __init__(self, points, preset="scan", neighbors=30, normals=None, *, viewpoint=None, image=None, rings=None,
@@ -78,7 +82,7 @@ class PointCloud(Surface):
         if image is not None and rings is not None:
             raise InvalidInput(f"{name}: image and rings are both given, must be one at most")
         for structure in (image, rings):
-            if isinstance(structure, _tufted.ScanStructure):  # of a file, see read()
+            if isinstance(structure, _tufted.ScanStructure):  # made by read() from a file
                 return structure
         if image is not None:
             return _pixels(name, points, image, origin)
@@ -91,21 +95,25 @@ class PointCloud(Surface):
         return None
 
     def triangles(self, *, progress=None):
-        """Triangles of the surface to look at, and for programs that take meshes; their corners lie at `positions`.
+        """Selects triangles that form a surface, for display and for programs that take meshes. Their corners lie at
+        `positions`.
 
-        Returns F x 3 int32; every edge has one or two triangles, which are oriented alike.
+        Returns F x 3 int32: every edge has one or two triangles, and triangles joined by edges are oriented
+        consistently.
         """
         self._need_cover("triangles")
         return _tufted.triangles(self._laplacian, check.callback("triangles", progress))
 
 
 class Mesh(Surface):
-    """The Laplacian of a triangle mesh of any connectivity, which is built at once.
+    """The Laplacian of a triangle mesh of any connectivity, built by the constructor.
 
-    points: V x 3, float32 or float64 (not copied if contiguous). faces: F x 3, integers of any type.
+    points: V x 3, as in PointCloud.
+    faces: F x 3 indices of any integer type; those with a repeated or non-finite vertex are dropped and counted in
+    `report`.
     mollify, order, seed, threads, solver, memory_limit, progress: as in PointCloud.
-    weld: whether vertices of equal position are joined; all keep their index and row, and the first of each position
-    stands for them.
+    weld: whether vertices of equal position are joined; all keep their index, and the first of each position represents
+    the others.
     """
 
     def __init__(self, points, faces, *, mollify=_tufted.default_mollify, order="angle", seed=0, weld=False, threads=0,
@@ -127,11 +135,11 @@ class Mesh(Surface):
         return self._faces
 
     def triangles(self):
-        """The triangles of the mesh, F x 3 int32, as those of a cloud."""
+        """The same as `faces`."""
         return self._faces
 
     def _mesh_frames(self):
-        """Normals and tangents, and whether the triangles say which side they are on."""
+        """Normals and tangents, and their Orientation as a number."""
         return self._keep("mesh frames", lambda: _tufted.mesh_frames(self._laplacian, self._points, self._faces))
 
     def _frame_parts(self):
@@ -147,12 +155,13 @@ class Mesh(Surface):
 def denoise(points, *, image=None, viewpoint=None, threads=0, progress=None):
     """Moves the points of a noisy scan onto the surface, without a radius to choose.
 
-    points: N x 3, float32 or float64; rows with NaN stay as they are.
-    image: (width, height) of a depth image, whose points then move along their rays. viewpoint: where its camera stood,
-    3 values; None: at the origin.
-    threads: at most this many; 0: all. progress: a function of stage and fraction.
-    Returns points (N x 3), noise (N: its standard deviation around each point that moved, 0 where it stayed), how many
-    moved, how many stayed as outliers, and median_noise over those that moved.
+    points: N x 3, float32 or float64; rows that are not finite stay as they are.
+    image: (width, height) of a depth image, whose points then move along their rays. viewpoint: position of its camera,
+    3 values; None: the origin. Only with image.
+    threads: at most this many; 0: one per processor. progress: see Surface.
+    Returns points (N x 3), noise (N: standard deviation of the noise around each point that moved, 0 at others), moved
+    (how many points moved), outliers (how many stayed because they hover over the surface), and median_noise over the
+    points that moved.
     """
     name = "denoise"
     points = check.rows_of_three(name, "points", points)
@@ -178,15 +187,17 @@ def _set_geometry(surface, geometry, source):
 def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=False, progress=None, **options):
     """Reads a cloud or a mesh from a file and builds its Laplacian, as `tufted laplacian` does.
 
-    path: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL or VTK. What the file holds but is not read is a warning.
+    path: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL or VTK. A warning says what of the file is skipped or
+    changed.
     kind: "automatic", "cloud" (faces are ignored) or "mesh" (a file without faces is an error).
-    weld: as in Mesh; clouds join equal points in any case.
-    image: whether the pixels of an organized cloud give the neighbours; None: where a pinhole camera saw it from the
-    file's viewpoint, unless neighbors, neighborhoods, rings or preset="lidar" is given.
-    rings: True: the rings of a spinning scanner give the neighbours, by the file's fields `ring` and `azimuth`, or for
-    either that it lacks by the directions seen from its viewpoint. Otherwise as in PointCloud.
+    weld: as in Mesh; False for clouds, whose equal points are always merged.
+    image: whether the pixels of an organized cloud give the neighbours; None: if a pinhole camera at the file's
+    viewpoint saw them, and neither neighbors, neighborhoods, rings nor preset="lidar" is given.
+    rings: True: the rings of a spinning scanner give the neighbours, by the file's fields `ring` and `azimuth`;
+    directions seen from its viewpoint replace a field that is missing. Other values as in PointCloud.
     normals: whether the file's normals are used for the tangent planes.
-    options: those of PointCloud or Mesh.
+    options: those of PointCloud or Mesh; the default for viewpoint is that of the file.
+    Returns a PointCloud or a Mesh. Raises IoError if the file cannot be read.
     """
     path = os.fspath(path)
     has_rings = rings is not None and rings is not False
@@ -220,14 +231,18 @@ def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=
     return _set_geometry(PointCloud(geometry.points, progress=progress, **options), geometry, path)
 
 
-# The formats that load() takes, each with a file of its own.
+# The formats that load() reads, each with the file by which it is recognised.
 _LOADED = {"npz": "L.npz", "ply": "points.ply", "pcd": "points.pcd", "cover": "cover.npz"}
 
 
 def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=None):
-    """Loads what `save` or `tufted laplacian` wrote last: npz with ply or pcd, and the cover where it is among that.
+    """Loads the last result that save() or `tufted laplacian` wrote into a directory, which needs formats npz and ply
+    or pcd.
 
-    Files that an earlier result has left in the directory are not taken. Without the cover, distances, log_map, Voronoi segments and triangles are refused.
+    Files of earlier results are ignored. Without the cover (format "cover"), distances, paths, log_map, Voronoi
+    segments and triangles of clouds raise InvalidInput.
+    threads, solver, memory_limit, progress: as in PointCloud.
+    Returns a PointCloud or a Mesh. Raises IoError for a file that is missing, damaged or does not fit the others.
     """
     directory = os.fspath(directory)
     solving = _solving("load", threads, solver, memory_limit)

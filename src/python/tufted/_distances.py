@@ -1,4 +1,4 @@
-"""The part of Surface about distances, and what is carried along the surface."""
+"""The methods of Surface that measure distances, or carry values and vectors along the surface."""
 import numpy as np
 
 from . import _arguments as check
@@ -10,16 +10,18 @@ from ._tufted import InvalidInput
 class Distances:
     def distance(self, sources=(), *, faces=None, barycentric=None, method="marching", split=None, maximum=None,
                  time_step=None, unit=None, open_boundary=None, progress=None):
-        """Geodesic distance from the nearest of some points.
+        """The geodesic distance of every point from the nearest of some sources.
 
         sources: an index or several.
-        faces, barycentric: S faces of a mesh and S x 3 coordinates by corner: points inside triangles, as sources too.
-        method: "marching" through the triangles, the more accurate one, or "heat", smooth where fronts meet.
-        split: of marching, how often each triangle is cut into four, 0 to 2; None: twice up to 5,000 points, else once.
+        faces, barycentric: S faces of a mesh and S x 3 barycentric coordinates by corner, >= 0: further sources, inside
+        triangles.
+        method: "marching" through the triangles, which is more accurate, or "heat", smooth where fronts from different
+        sides meet.
+        split: of marching: how often each triangle is cut into four, 0 to 2; None: 2 up to 5,000 points, otherwise 1.
         maximum: greater distances are infinite; None: no limit.
-        time_step: of heat, in `unit`; larger ones smooth; None: 0.5. unit: of heat, "mean" squared edge (None) or
-        "adapted" to uneven density. open_boundary: of heat, whether it passes the boundary as if the surface went on;
-        None: True.
+        time_step: of heat, in units of `unit`; larger values smooth more; None: 0.5. unit: of heat: "mean" (None), the
+        mean squared length of edges, or "adapted", the same for very uneven density. open_boundary: of heat: whether it
+        passes the boundary as if the surface went on; None: True.
         Returns N values >= 0, length; infinite where no path leads.
         """
         places = self._places("distance", sources, faces, barycentric)
@@ -28,24 +30,22 @@ class Distances:
 
     def nearest_source(self, sources=(), *, faces=None, barycentric=None, method="marching", split=None, maximum=None,
                        time_step=None, unit=None, open_boundary=None, progress=None):
-        """The nearest of some points along the surface: their geodesic Voronoi cells.
+        """Finds the nearest source of every point along the surface: the geodesic Voronoi cells of the sources.
 
-        Arguments are those of `distance`: sources, faces and barycentric; method, split, maximum, and time_step, unit and
-        open_boundary of heat.
-        Returns N distances and N numbers: which of the sources is nearest, first `sources`, then `faces`, counted from
-        0; -1 where none leads.
+        sources, faces, barycentric, method, split, maximum, time_step, unit, open_boundary: as in distance().
+        Returns N distances, and N numbers of the nearest source, counted from 0 through `sources`, then `faces`; -1
+        where no path leads.
         """
         places = self._places("nearest_source", sources, faces, barycentric)
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.nearest(places, check.callback("nearest_source", progress))
 
     def points_within(self, sources, radius, *, split=None, progress=None):
-        """The points whose distance along the surface from the nearest of some points is at most a radius.
+        """Finds the points whose geodesic distance from the nearest of some sources is at most a radius. On a cloud
+        only the surface around the sources is visited.
 
-        sources: an index or several. radius: length.
-        split: as in `distance`, whose values by marching these are.
-        Returns (points, distances): K indices, ascending, and K values, length. On a cloud nothing but the surface
-        around the sources is looked at.
+        sources: an index or several. radius: length, > 0. split: as in distance().
+        Returns K indices, ascending, and their K distances by marching.
         """
         self._need_cover("points_within")
         where = check.indices("points_within", "sources", sources, len(self))
@@ -54,11 +54,11 @@ class Distances:
                                      check.callback("points_within", progress))
 
     def path(self, start, end, *, progress=None):
-        """The shortest path between two points, straight across the triangles.
+        """A shortest path between two points, straight across the triangles; no path near it is shorter.
 
         start, end: indices.
-        Returns (points, length): K x 3, from start to end, and the length along the surface. Points on different
-        components are refused.
+        Returns points (K x 3, from start to end) and the length along the surface. Raises InvalidInput if no path
+        leads.
         """
         self._need_cover("path")
         ends = [check.indices("path", name, point, len(self)) for name, point in (("start", start), ("end", end))]
@@ -70,10 +70,10 @@ class Distances:
         return Path(*solver.path(int(ends[0][0]), int(ends[1][0]), check.callback("path", progress)))
 
     def extend(self, sources, values, *, time_step=4.0, progress=None):
-        """Values of some points carried to all: nearly those of the nearest source.
+        """Extends values from some points to all: nearly those of the nearest source.
 
         sources: S indices. values: S or S x c, finite.
-        time_step: in squared mean edges; larger ones mix more.
+        time_step: in mean squared distances of neighbours; larger values mix more.
         Returns N or N x c; NaN where no path leads.
         """
         where = check.indices("extend", "sources", sources, len(self))
@@ -86,9 +86,10 @@ class Distances:
         return result[:, 0] if flat else result
 
     def transport(self, sources, vectors, *, time_step=4.0, progress=None):
-        """Tangent vectors of some points carried to all, parallel along the shortest paths.
+        """Transports tangent vectors from some points to all, parallel along the shortest paths.
 
-        sources: S indices. vectors: S x 3, projected into the tangent planes of their points.
+        sources: S indices. vectors: S x 3, projected into the tangent planes of their points. time_step: as in
+        extend().
         Returns N x 3 tangent vectors; 0 where no path leads.
         """
         where = check.indices("transport", "sources", sources, len(self))
@@ -100,11 +101,14 @@ class Distances:
         return solver.query(where, vectors, progress)
 
     def log_map(self, source, *, axis=None, time_step=4.0, progress=None):
-        """The logarithmic map: in which direction, and how far, each point lies from one.
+        """The logarithmic map: the direction at a source, and the distance from it, in which every point lies.
 
         source: index of an active point.
-        axis: direction of the first coordinate, 3 values; None: the x axis of the point's frame.
-        Returns coordinates (N x 2, length; NaN where no path leads) and axes (2 x 3, their directions at the source).
+        axis: direction of the first coordinate, 3 values; None: the tangent at the source, of frames with the normals
+        of normals().
+        time_step: as in extend().
+        Returns coordinates (N x 2, distance times cosine and sine of the angle; NaN where no path leads) and axes (2 x
+        3, the directions of the coordinates at the source).
         """
         where = check.indices("log_map", "source", source, len(self))
         if where.size != 1:
@@ -119,12 +123,12 @@ class Distances:
         return LogMap(coordinates, np.vstack([first, second]))
 
     def signed_distance(self, curve, *, time_step=4.0, progress=None):
-        """Distance from a curve on the surface, positive to its left seen from the side of the normals.
+        """The distance from a curve on the surface, positive to its left as seen from the side that normals point to.
 
-        curve: indices of the points along it, in order; the last is the first again where it is closed. It may have
-        gaps, across which the distance goes on smoothly.
-        time_step: of the heat that carries directions, in mean squared distances of neighbours.
-        Returns N values in the points' unit; NaN on components without a part of the curve.
+        curve: indices of points in order, the first one again at the end if the curve is closed. It may have gaps,
+        across which the distance continues smoothly.
+        time_step: as in extend().
+        Returns N values, length; NaN on components without a part of the curve.
         """
         where = check.indices("signed_distance", "curve", curve, len(self))
         time_step = check.number("signed_distance", "time_step", time_step)

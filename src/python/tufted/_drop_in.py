@@ -7,7 +7,8 @@ from . import _tufted
 from ._clouds import Mesh, PointCloud
 from ._tufted import InvalidInput
 
-# Half of a squared mean edge for distances, four for vectors: what the library's own solvers take by default.
+# Default time steps of the library's solvers: for distances in mean squared edge lengths, for vectors in mean squared
+# distances of neighbours.
 _DISTANCE_STEP, _VECTOR_STEP = 0.5, 4.0
 
 
@@ -19,14 +20,14 @@ def _matrices(surface, dummy, return_mass):
 
 def point_cloud_laplacian(points, mollify_factor=_tufted.default_mollify, n_neighbors=30, return_mass=True, *, preset="scan", dummy=True,
                           threads=0, progress=None):
-    """L and M of a point cloud, as robust_laplacian.point_cloud_laplacian.
+    """Builds L and M of a point cloud, as robust_laplacian.point_cloud_laplacian.
 
-    points: N x 3. mollify_factor: `mollify` of PointCloud. n_neighbors: k >= 3. return_mass: False returns L alone.
+    points: N x 3. mollify_factor: `mollify` of PointCloud. n_neighbors: k >= 3. return_mass: False returns L only.
     preset: "scan", "clean" or "lidar", see PointCloud.
     dummy: whether points that take no part get 1 on the diagonal of L and a small mass, so that solvers never meet a
     singular matrix; otherwise they have zeros.
-    threads: at most this many; 0: all.
-    Returns L and M, N x N csc_matrix; L is positive semidefinite, minus the Laplacian, and M diagonal, length^2.
+    threads: at most this many; 0: one per processor.
+    Returns L and M, N x N csc_matrix: L positive semidefinite, minus the Laplacian; M diagonal, length^2.
     """
     with check.named("point_cloud_laplacian", mollify="mollify_factor", neighbors="n_neighbors"):
         cloud = PointCloud(points, preset, n_neighbors, mollify=mollify_factor, threads=threads, progress=progress)
@@ -34,7 +35,7 @@ def point_cloud_laplacian(points, mollify_factor=_tufted.default_mollify, n_neig
 
 
 def mesh_laplacian(verts, faces, mollify_factor=_tufted.default_mollify, return_mass=True, *, dummy=True, threads=0, progress=None):
-    """L and M of a triangle mesh, as robust_laplacian.mesh_laplacian.
+    """Builds L and M of a triangle mesh, as robust_laplacian.mesh_laplacian.
 
     verts: V x 3. faces: F x 3. All else as in point_cloud_laplacian().
     """
@@ -44,7 +45,7 @@ def mesh_laplacian(verts, faces, mollify_factor=_tufted.default_mollify, return_
 
 
 class _HeatSolver:
-    """What the classes below have in common. Indices are those of points or vertices."""
+    """Base of the classes below. Their indices are those of points or vertices."""
 
     def __init__(self, surface, t_coef):
         t_coef = check.number(type(self).__name__, "t_coef", t_coef)
@@ -54,36 +55,36 @@ class _HeatSolver:
 
     @property
     def surface(self):
-        """The PointCloud or Mesh behind, with all other methods."""
+        """The PointCloud or Mesh that is solved on, with all other methods."""
         return self._surface
 
 
 class _Distances(_HeatSolver):
     def compute_distance(self, source_ind):
-        """Geodesic distance from one point: N values; infinite where no path leads."""
+        """Geodesic distances from one point by the heat method: N values; infinite where no path leads."""
         return self.compute_distance_multisource([source_ind])
 
     def compute_distance_multisource(self, source_inds):
-        """Geodesic distance from the nearest of several points: N values; infinite where no path leads."""
+        """Geodesic distances from the nearest of several points: N values; infinite where no path leads."""
         return self._surface.distance(source_inds, method="heat", time_step=_DISTANCE_STEP * self._t_coef)
 
 
 class _Vectors(_HeatSolver):
     def extend_scalar(self, source_inds, values):
-        """Values of some points carried to all: N values, nearly those of the nearest source."""
+        """Extends values from some points to all: N values, nearly those of the nearest source."""
         return self._surface.extend(source_inds, values, time_step=_VECTOR_STEP * self._t_coef)
 
     def get_tangent_frames(self):
-        """Three arrays of N x 3: the x axes, the y axes and the normals of the points."""
+        """The x axes, the y axes and the normals of the points: three arrays of N x 3."""
         frames = self._surface.frames
         return frames[:, 0], frames[:, 1], frames[:, 2]
 
     def transport_tangent_vector(self, source_ind, vector):
-        """A tangent vector of one point, 2 coordinates in its frame, carried to all: N x 2 in the frames there."""
+        """Transports a tangent vector of one point, 2 coordinates in its frame, to all: N x 2 in their frames."""
         return self.transport_tangent_vectors([source_ind], [vector])
 
     def transport_tangent_vectors(self, source_inds, vectors):
-        """Tangent vectors of S points, S x 2 in their frames, carried to all: N x 2 in the frames there."""
+        """Transports tangent vectors of S points, S x 2 in their frames, to all points: N x 2 in their frames."""
         surface = self._surface
         where = check.indices("transport_tangent_vectors", "source_inds", source_inds, len(surface))
         table, _ = check.columns("transport_tangent_vectors", "vectors", vectors, where.size)
@@ -95,12 +96,12 @@ class _Vectors(_HeatSolver):
         return np.einsum("nj,nij->ni", carried, tangents)
 
     def compute_log_map(self, source_ind):
-        """Coordinates of all points around one: N x 2, along the first two axes of its frame."""
+        """The logarithmic map around one point: N x 2, along the first two axes of its frame."""
         surface = self._surface
         source = check.indices("compute_log_map", "source_ind", source_ind, len(surface))[0]
         x, y = surface.frames[source, :2]
         coordinates, axes = surface.log_map(source, axis=x, time_step=_VECTOR_STEP * self._t_coef)
-        return coordinates * [1.0, np.sign(axes[1] @ y)]  # where the signed normal is the other one
+        return coordinates * [1.0, np.sign(axes[1] @ y)]  # negated where log_map() turned the normal
 
 
 class PointCloudHeatSolver(_Distances, _Vectors):
@@ -117,8 +118,8 @@ class PointCloudHeatSolver(_Distances, _Vectors):
 class MeshHeatMethodDistanceSolver(_Distances):
     """Distances on a mesh, as potpourri3d.MeshHeatMethodDistanceSolver.
 
-    V: N x 3. F: F x 3. t_coef: factor of the time step; 1: the library's own. use_robust: of no effect, as the tufted
-    Laplacian always is. options: those of Mesh.
+    V: N x 3. F: F x 3. t_coef: factor of the time step; 1: the library's own. use_robust: ignored, the tufted Laplacian
+    is always used. options: those of Mesh.
     """
 
     def __init__(self, V, F, t_coef=1.0, use_robust=True, **options):
@@ -127,7 +128,7 @@ class MeshHeatMethodDistanceSolver(_Distances):
 
 
 class MeshVectorHeatSolver(_Vectors):
-    """Values and vectors carried along a mesh, and its log map, as potpourri3d.MeshVectorHeatSolver.
+    """Extension, vector transport and log map on a mesh, as potpourri3d.MeshVectorHeatSolver.
 
     V: N x 3. F: F x 3. t_coef: factor of the time step; 1: the library's own. options: those of Mesh.
     """
@@ -138,21 +139,23 @@ class MeshVectorHeatSolver(_Vectors):
 
 
 def compute_distance(V, F, v_ind):
-    """Geodesic distance from one vertex of a mesh, N values; a solver is quicker for a second one."""
+    """Geodesic distances from one vertex of a mesh, N values. For several queries MeshHeatMethodDistanceSolver is
+    faster.
+    """
     return MeshHeatMethodDistanceSolver(V, F).compute_distance(v_ind)
 
 
 def compute_distance_multisource(V, F, v_inds):
-    """Geodesic distance from the nearest of several vertices of a mesh, N values."""
+    """Geodesic distances from the nearest of several vertices of a mesh, N values."""
     return MeshHeatMethodDistanceSolver(V, F).compute_distance_multisource(v_inds)
 
 
 def read_mesh(path):
-    """Vertices, V x 3 float64, and faces, F x 3 int32, of a file."""
+    """Reads the vertices, V x 3 float64, and the faces, F x 3 int32, of a file."""
     geometry = _tufted.read_file(path, "mesh", False, None)
     return np.array(geometry.points), np.array(geometry.triangles)
 
 
 def read_point_cloud(path):
-    """Points of a file, N x 3 float64; faces are ignored."""
+    """Reads the points of a file, N x 3 float64; faces are ignored."""
     return np.array(_tufted.read_file(path, "cloud", False, None).points)

@@ -1,4 +1,4 @@
-"""The part of Surface that solves equations with L, and has matrices for others."""
+"""The methods of Surface that solve equations with L, and its gradients."""
 import numpy as np
 
 from . import _arguments as check
@@ -8,21 +8,21 @@ from ._tufted import InvalidInput
 
 
 def frames_of(normals, tangents):
-    """N x 3 x 3: of each point the x axis, the y axis and the normal."""
+    """Frames as N x 3 x 3: the x axis (tangent), the y axis (cross(normal, tangent)) and the normal of each point."""
     return np.stack([tangents, np.cross(normals, tangents), normals], axis=1)
 
 
 class Equations:
     def harmonic(self, pins, values=None, *, progress=None):
-        """The smoothest function with given values: L u = 0 at all other points.
+        """The harmonic function with given values: L u = 0 at all other points.
 
         pins: {index: value, ...}, or P indices with `values`, P or P x c.
-        Returns N or N x c, within the range of the pinned values; NaN in components without a pin.
+        Returns N or N x c, within the range of the pinned values; NaN on components without a pin.
         """
         return self._interpolate("harmonic", pins, values, progress)
 
     def biharmonic(self, pins, values=None, *, progress=None):
-        """The function of least bending with given values: smooth at the pins, but not bounded by them.
+        """The biharmonic function with given values: it bends least, is smooth at the pins, and may leave their range.
 
         Arguments and result are those of harmonic().
         """
@@ -31,9 +31,11 @@ class Equations:
     def weights(self, handles, *, progress=None):
         """Bounded biharmonic weights, for skinning and blending.
 
-        handles: H points, or H lists of points. Each handle's weight is 1 at its points, 0 at those of the others,
-        between 0 and 1 elsewhere, and bends the least; those of a point are divided by their sum.
-        Returns N x H; NaN on components without a handle.
+        The weight of a handle is 1 at its points, 0 at those of the others, in [0, 1] elsewhere, and bends least. Then
+        the weights of each point are divided by their sum.
+
+        handles: H indices, or H lists of indices.
+        Returns N x H, rows of sum 1; NaN on components without a handle.
         """
         if not hasattr(handles, "__len__") or isinstance(handles, (str, bytes)):
             raise InvalidInput("weights: handles must be a list of points, or of lists of points")
@@ -43,9 +45,9 @@ class Equations:
     def poisson(self, f, pins=None, values=None, *, progress=None):
         """Solves L u = M f: minus the Laplacian of u is f.
 
-        f: N or N x c, finite at active points; its mean over each component is subtracted.
-        pins, values: as in harmonic(), with as many columns as f: then f keeps its mean, and u has the values given.
-        Returns the shape of f, with mean 0 over each component unless pinned; NaN at points that take no part.
+        f: N or N x c, finite at active points. Without pins its mean over each component is subtracted.
+        pins, values: as in harmonic(), with as many columns as f: there u has the values given.
+        Returns the shape of f, without pins with mean 0 over each component; NaN at isolated and non-finite points.
         """
         table, flat = check.columns("poisson", "f", f, len(self))
         progress = check.callback("poisson", progress)
@@ -58,10 +60,11 @@ class Equations:
         return result[:, 0] if flat else result
 
     def green(self, points, *, progress=None):
-        """Green's function of points: L g = delta - M / area, with mean 0 over the component.
+        """Green's functions of points: L g = delta - M / area, with mean 0 over the component.
 
         points: an index, or c of them.
-        Returns N for one index, N x c for several; 0 in other components, NaN at points that take no part.
+        Returns N for one index, N x c for several, no unit; 0 on other components, NaN at isolated and non-finite
+        points.
         """
         where = check.indices("green", "points", points, len(self))
         progress = check.callback("green", progress)
@@ -71,19 +74,20 @@ class Equations:
     def gradients(self, *, neighbors=None, regularization=0.0, progress=None):
         """Matrices that give the slopes of functions on the points, by least squares over neighbours.
 
-        neighbors: in each fit; None: 30 for clouds, those in L for meshes.
-        regularization: length^2 added to the fits, which DiffusionNet does with 1e-5.
-        Returns X and Y (N x N csc_matrix, 1/length), and the frames (N x 3 x 3) along whose first two axes they are.
+        neighbors: number in each fit, >= 3; 0: those in L; None: 30 for clouds, 0 for meshes.
+        regularization: >= 0, length^2, added to each fit, as DiffusionNet does with 1e-5; 0: off.
+        Returns X and Y (N x N csc_matrix, 1/length), and the frames (N x 3 x 3) along whose first two axes they give
+        slopes.
         """
         found = self._gradients(neighbors, regularization, progress)
         return Gradients(check.sparse(found.X, len(self)), check.sparse(found.Y, len(self)),
                          frames_of(found.normals, found.tangents))
 
     def divergence(self, vectors, *, neighbors=None, regularization=0.0, progress=None):
-        """The divergence of tangent vectors, minus the adjoint of gradients() with the same options.
+        """The divergence of tangent vectors, the negative adjoint of gradients() with the same options.
 
         vectors: N x 2, along the first two axes of the frames of gradients().
-        Returns N.
+        Returns N values, in the unit of the vectors per length.
         """
         table, _ = check.columns("divergence", "vectors", vectors, len(self))
         if table.shape[1] != 2:
@@ -91,9 +95,9 @@ class Equations:
         return _tufted.divergence(self._laplacian, self._gradients(neighbors, regularization, progress), table)
 
     def operators(self, k=None, *, neighbors=None, regularization=0.0, progress=None):
-        """What networks such as DiffusionNet take, as `tufted operators` writes it.
+        """The operators that networks such as DiffusionNet take, as `tufted operators` writes them.
 
-        k: number of eigenvalues, those that are 0 among them; None: 128, or as many as there are.
+        k: number of eigenvalues, zeros included; None: 128, or as many as there are. Other arguments as in gradients().
         Returns a dict of frames (N x 3 x 3), mass (N), L, gradX, gradY (N x N csc_matrix), evals (k), evecs (N x k).
         """
         slopes = self.gradients(neighbors=neighbors, regularization=regularization, progress=progress)
@@ -119,12 +123,12 @@ class Equations:
         if neighbors is not None:
             neighbors = check.whole("gradients", "neighbors", neighbors, 0)
         regularization = check.number("gradients", "regularization", regularization)
-        # Older folders do not have the positions, where noisy points were moved.
+        # Folders of older versions have no positions; slopes are then measured between the points.
         points = self.positions if len(self.positions) == len(self) else self._points
         return self._keep("gradients", lambda: _tufted.gradients(
             self._laplacian, points, self._fitted_frames(), neighbors, regularization,
             self._solving["threads"], check.callback("gradients", progress)), (neighbors, regularization))
 
     def _fitted_frames(self):
-        """Planes in which gradients are taken; None: fitted ones."""
+        """Frames in whose planes gradients are taken; None: planes are fitted."""
         return None

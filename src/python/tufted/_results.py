@@ -1,4 +1,4 @@
-"""What methods return beside plain arrays."""
+"""Results of methods that return several values."""
 from typing import NamedTuple
 
 import numpy as np
@@ -6,11 +6,13 @@ import scipy.sparse
 
 
 class TuftedWarning(UserWarning):
-    """Something about the data or the build that a user must know; the report's "warnings" have it as well."""
+    """Something about the data or a result that a user should know. Warnings of a build are also in
+    report["warnings"].
+    """
 
 
 class Spectrum(NamedTuple):
-    """The first eigenpairs of L x = lambda M x."""
+    """The first eigenpairs of L x = lambda M x, see Surface.spectrum()."""
     values: np.ndarray
     vectors: np.ndarray
 
@@ -31,15 +33,14 @@ class Curvature(NamedTuple):
 
 
 class Segments(NamedTuple):
-    """Segments of a surface."""
+    """Segments of a surface, see Surface.segments()."""
     labels: np.ndarray
     areas: np.ndarray
     seeds: np.ndarray
 
 
 class Denoised(NamedTuple):
-    """Points on the surface that noisy ones lie around, and the standard deviation of the noise: at each point, 0 where
-    it stayed, and in the median over those that moved."""
+    """Points moved onto the surface, and the noise that they had, see denoise()."""
     points: np.ndarray
     noise: np.ndarray
     moved: int
@@ -48,7 +49,7 @@ class Denoised(NamedTuple):
 
 
 class Parameterization(NamedTuple):
-    """A surface laid out in the plane."""
+    """A surface laid out in the plane, see Surface.parameterize()."""
     uv: np.ndarray
     quasi_conformal_error: float
     triangles: int
@@ -58,26 +59,26 @@ class Parameterization(NamedTuple):
 
 
 class MinimalSurface(NamedTuple):
-    """A surface of least area."""
+    """A surface of least area, see Surface.minimal_surface()."""
     points: np.ndarray
     area: float
     converged: bool
 
 
 class Deformation(NamedTuple):
-    """A surface that has followed its handles."""
+    """A deformed surface, see Surface.deform()."""
     points: np.ndarray
     stretch: float
     converged: bool
 
 
 class Path(NamedTuple):
-    """A path over the surface."""
+    """A path on the surface, see Surface.path()."""
     points: np.ndarray
     length: float
 
 
 class LogMap(NamedTuple):
-    """Coordinates around a point."""
+    """Coordinates around a point, see Surface.log_map()."""
     coordinates: np.ndarray
     axes: np.ndarray

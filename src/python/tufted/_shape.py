@@ -1,4 +1,4 @@
-"""The part of Surface about its shape, and about new places of its points."""
+"""The methods of Surface about its shape, and those that move its points."""
 import warnings
 
 import numpy as np
@@ -11,21 +11,22 @@ from ._tufted import InvalidInput
 
 class Shape:
     def normals(self, *, viewpoint=None, up=None, progress=None):
-        """Normals of one sign on each component: as their neighbours' and outwards, or towards a viewpoint.
+        """Normals of one sign on each component: they agree with their neighbours' and point outwards, or face a
+        viewpoint.
 
-        viewpoint: 3 values; None: the one that the cloud was built with, if any.
-        up: 3 values: which way the normals of open sheets point, in the mean. These have no outside; None: to where
-        they bulge. Where it is given, the viewpoint that the cloud was built with is left out of account.
+        viewpoint: position that normals face, 3 values; None: the one that the cloud was built with, if any.
+        up: direction that the mean normal of an open sheet has, 3 values, as such a sheet has no outside; None: it
+        faces the way it bulges. With `up`, the viewpoint of the build is ignored.
         Returns N x 3, unit length.
         """
         return self._signed_frames(viewpoint, progress, up)[0]
 
     def curvature(self, *, method="fit", progress=None):
-        """Curvature at each point, with the normals of normals().
+        """Curvature at each point, positive where the surface bends away from the normal of normals().
 
-        method: "fit" of a surface to as many neighbours as the noise asks for, or "laplacian", mean curvature alone.
-        Returns mean (N, 1/length), gaussian (N, 1/length^2), principal (N x 2, k1 >= k2, 1/length) and directions
-        (N x 2 x 3, of k1 and of k2); all but the first are empty with "laplacian".
+        method: "fit" of a quadratic to as many neighbours as the noise requires, or "laplacian": mean curvature only.
+        Returns mean (N, 1/length), gaussian (N, 1/length^2), principal (N x 2, k1 >= k2, 1/length) and directions (N x
+        2 x 3, of k1 and k2); all but the first are empty with "laplacian".
         """
         progress = check.callback("curvature", progress)
         mean, gaussian, principal, first, second = _tufted.curvature(
@@ -35,11 +36,11 @@ class Shape:
     def segments(self, count=None, *, method="voronoi", seeds=None, progress=None):
         """Cuts the surface into segments.
 
-        count: how many, >= 1; None: 8, or as many as there can be. Not used with seeds.
-        method: "voronoi" cells of points far from each other, or "spectral" parts that narrow necks join.
-        seeds: points whose Voronoi cells are the segments.
-        Returns labels (N int32, 0 for the largest segment, -1: none), areas (length^2) and seeds (empty with
-        "spectral").
+        count: number of segments, >= 1; None: 8, or as many as possible. Ignored with seeds.
+        method: "voronoi": geodesic cells of points far from each other; "spectral": parts that narrow necks join.
+        seeds: active points whose Voronoi cells are the segments.
+        Returns labels (N int32, 0 for the segment of the largest area, -1 in none), areas (length^2) and seeds (empty
+        with "spectral").
         """
         count = None if count is None else check.whole("segments", "count", count, 1)
         where = np.zeros(0, np.int32) if seeds is None else check.indices("segments", "seeds", seeds, len(self))
@@ -52,11 +53,13 @@ class Shape:
                keep_volume=False, progress=None):
         """Smooths positions.
 
-        points: N x 3; None: the own ones. method: "implicit" steps of the heat equation, which shrink, or "taubin": a
-        step towards the mean of the neighbours, by lambda_, then one away from it, by mu, which hardly shrink.
-        time_step: of implicit steps, >= 0, in mean squared edges. lambda_: in (0, 1]; mu: in [-1, 0].
-        iterations: steps >= 1. fixed: N booleans; points with True stay in place.
-        keep_volume: scale each component, which must be closed, to the volume it had.
+        points: N x 3; None: those of this surface.
+        method: "implicit" steps of the heat equation, in which shapes shrink, or "taubin": steps towards the mean of
+        the neighbours, by lambda_, and back, by mu, in which they hardly shrink.
+        time_step: of "implicit", >= 0, in mean squared edge lengths of each component. lambda_: in (0, 1]; mu: in [-1,
+        0].
+        iterations: number of steps, >= 1. fixed: N booleans; points with True stay in place.
+        keep_volume: whether each component, which must be closed, is scaled to the volume it had; not with fixed.
         Returns N x 3.
         """
         points = self._points if points is None else check.rows_of_three("smooth", "points", points, len(self))
@@ -93,14 +96,15 @@ class Shape:
     def parameterize(self, *, method="conformal", weights="laplacian", rim=None, rim_positions=None, progress=None):
         """Lays the surface out in the plane.
 
-        method: "conformal" keeps angles as well as can be, with a free rim; "harmonic" has the rim on a circle of
-        radius 1 or where rim_positions puts it, and each other point is a mean of its neighbours.
-        weights: of harmonic maps: of the "laplacian", or "mean-value", which flip no triangle.
-        rim: of harmonic maps: the points of the rim in order; None: found. rim_positions: one row u, v for each.
-        A conformal map in which more than a thousandth of the area collapses, as of long tubes, is refused.
-        Returns uv (N x 2, NaN where a point has no place), quasi_conformal_error (1: angles are kept), how many
-        triangles were laid out, how many of them are flipped and how many have collapsed, lower than 1e-7 of the map,
-        and for how many points uv is NaN (not_mapped).
+        method: "conformal" preserves angles as well as possible and leaves the rim free; "harmonic" has the rim on a
+        circle of radius 1 or at rim_positions, and each other point is a mean of its neighbours.
+        weights: of harmonic maps: those of the "laplacian", or "mean-value", which flip no triangle.
+        rim: of harmonic maps: the points of the rim in order; None: that of the triangles. rim_positions: one row u, v
+        for each.
+        Returns uv (N x 2, NaN where a point has no place), quasi_conformal_error (1: angles are preserved), triangles
+        (how many were laid out), flipped and collapsed (how many of these are flipped, or lower than 1e-7 of the map)
+        and not_mapped (points where uv is NaN).
+        Raises InvalidInput also where a conformal map collapses more than a thousandth of the area, as of long tubes.
         """
         where = np.zeros(0, np.int32) if rim is None else check.indices("parameterize", "rim", rim, len(self))
         places = np.zeros((0, 2))
@@ -117,10 +121,11 @@ class Shape:
         return result
 
     def minimal_surface(self, fixed=None, *, tolerance=1e-4, max_iterations=300, progress=None):
-        """The surface of the least area that its rim, or given points, span.
+        """The surface of least area that its rim, or given points, span.
 
-        fixed: the points that stay in place; None: those of the rim. tolerance: iterations end where no point moves off
-        the surface by more than this part of its extent, or after max_iterations.
+        fixed: the points that stay in place; None: those of the rim.
+        tolerance: iterations stop when no point moves off the surface by more than this part of its extent, or after
+        max_iterations.
         Returns points (N x 3), their area, and whether iterations converged.
         """
         where = np.zeros(0, np.int32) if fixed is None else check.indices("minimal_surface", "fixed", fixed, len(self))
@@ -134,13 +139,14 @@ class Shape:
                progress=None):
         """Moves some points to given places, and lets all others follow.
 
-        handles: P indices. targets: P x 3, where they shall lie.
-        method: "rigid", as rigid as possible: neighbourhoods turn smoothly and hardly stretch; or "linear", for small
-        turns.
-        smoothness: of "rigid": how much bending costs, as part of the area; 0: nothing.
-        tolerance: of "rigid": iterations end where no point moves by more than this part of the longest way of a
-        handle, or after max_iterations. The factor for the last handles is kept.
-        Returns points (N x 3), by how much edges stretch in their length, and whether iterations converged.
+        handles: P indices. targets: P x 3, the new places of the handles.
+        method: "rigid", as rigid as possible: neighbourhoods rotate smoothly and hardly stretch; "linear": two solves,
+        for small rotations.
+        smoothness: of "rigid", >= 0: cost of bending, as a share of the area; 0: none.
+        tolerance: of "rigid": iterations stop when no point moves by more than this part of the longest way of a
+        handle, or after max_iterations.
+        Returns points (N x 3), stretch (root mean square change of edges, relative to their lengths), and whether
+        iterations converged.
         """
         where = check.indices("deform", "handles", handles, len(self))
         places = check.rows_of_three("deform", "targets", targets, where.size)
@@ -154,7 +160,7 @@ class Shape:
         return Deformation(*solver.deform(places, progress))
 
     def _marks(self, function, fixed):
-        """N booleans as bytes, or None."""
+        """`fixed`, N booleans, as bytes; None stays None."""
         if fixed is None:
             return None
         fixed = check._array(function, "fixed", fixed)

@@ -1,4 +1,4 @@
-"""What eigenvalues and eigenvectors say: the part of Surface that a spectrum is for."""
+"""The methods of Surface that use eigenvalues and eigenvectors."""
 import numpy as np
 
 from . import _arguments as check
@@ -9,25 +9,27 @@ from ._tufted import InvalidInput
 
 class Spectral:
     def spectrum(self, k=None, *, null_space=True, tolerance=1e-10, progress=None):
-        """The k smallest eigenvalues of L x = lambda M x, with their vectors.
+        """The k smallest eigenvalues of L x = lambda M x, with their eigenvectors.
 
-        The null space is exact: the eigenvalue 0 for each component. Vectors are M-orthonormal, and their largest entry
-        is positive.
+        The null space is exact: the eigenvalue 0 once for each component. Vectors are M-orthonormal, and the largest
+        entry of each is positive.
 
-        k: number of pairs, at most as many as there are active points; None: 32, or as many as there are.
-        null_space: False leaves out the eigenvalues 0.
+        k: number of pairs, at most the number of active points of positive area; None: 32, or as many as there are.
+        null_space: False leaves out the eigenvalues 0 and returns the k smallest positive ones.
         tolerance: relative accuracy of vectors, in (0, 1).
-        Returns values (k, ascending, 1/length^2) and vectors (N x k, 1/length; 0 at points that take no part).
+        Returns values (k, ascending, 1/length^2) and vectors (N x k, 1/length; 0 at isolated and non-finite points).
         """
         pairs = self._pairs(self._count(k, 32, null_space), null_space, tolerance, progress)
         return Spectrum(pairs.values, pairs.vectors)
 
     def hks(self, times=None, *, k=100, samples=16, spectrum=None, progress=None):
-        """The heat kernel signature of every point: sum of exp(-lambda t) phi(x)^2 over the pairs of a spectrum.
+        """The heat kernel signature of every point: sum of exp(-lambda t) phi(x)^2 over the null space and k further
+        eigenpairs.
 
-        times: T times, length^2; None: `samples` of them, for which k pairs suffice.
-        k: number of positive eigenvalues to take; of more than there are, all.
-        spectrum: what spectrum() returned, to be used instead of k.
+        times: T values >= 0, length^2; None: `samples` times at which k pairs suffice, evenly spaced on a logarithmic
+        scale.
+        k: number of positive eigenvalues; all if there are fewer.
+        spectrum: a result of spectrum(), used instead of k.
         Returns N x T, 1/length^2.
         """
         pairs = self._positive("hks", k, spectrum, progress)
@@ -38,10 +40,12 @@ class Spectral:
         return _tufted.hks(self._laplacian, pairs, times)
 
     def wks(self, energies=None, *, width=None, k=100, samples=100, spectrum=None, progress=None):
-        """The wave kernel signature of every point.
+        """The wave kernel signature of every point: a weighted mean of phi(x)^2 over eigenvalues near each energy.
 
-        energies: E logarithms of eigenvalues; None: `samples` of them between those of the spectrum.
-        width: standard deviation of the energy; None: seven times the distance between the first two energies.
+        energies: E natural logarithms of eigenvalues; None: `samples` of them, evenly spaced between those of the
+        smallest and the largest positive eigenvalue.
+        width: standard deviation of the energy, used with `energies`; None: seven times the distance between the first
+        two energies.
         k, spectrum: as in hks().
         Returns N x E, 1/length^2.
         """
@@ -56,9 +60,10 @@ class Spectral:
         return _tufted.wks_at(pairs, energies, check.number("wks", "width", width))
 
     def embed(self, dimension=None, *, distance="commute", progress=None):
-        """Coordinates of every point between which Euclidean distances are spectral distances.
+        """Places every point so that Euclidean distances are spectral distances, one coordinate per positive
+        eigenvalue.
 
-        dimension: number of coordinates, one per positive eigenvalue; None: 3, or as many as there are.
+        dimension: number of coordinates; None: 3, or as many as there are.
         distance: "commute" (commute times, no unit) or "biharmonic" (length).
         Returns N x dimension.
         """
@@ -69,12 +74,13 @@ class Spectral:
         return _tufted.embed(pairs, distance)
 
     def filter(self, values, *, k=100, gain=None, spectrum=None, progress=None):
-        """A low-pass filter: keeps what the means over components and the first k eigenvectors hold.
+        """Filters functions on the points by their frequencies: the mean over each component is kept, the part along
+        each of the first k eigenvectors is multiplied by a factor, and the rest is removed.
 
         values: N or N x c, finite at active points.
-        gain: a function of an eigenvalue (1/length^2), the factor of its vector; None: 1.
+        gain: a function of an eigenvalue (1/length^2) that returns this factor; None: 1, a low-pass filter.
         k, spectrum: as in hks().
-        Returns the shape of values; points that are not finite or isolated keep theirs.
+        Returns the shape of values; isolated and non-finite points keep their values.
         """
         table, flat = check.columns("filter", "values", values, len(self))
         if gain is not None and not callable(gain):
@@ -90,11 +96,11 @@ class Spectral:
             self._laplacian, *settings, self._solver(), check.callback("spectrum", progress)), settings)
 
     def _count(self, k, usual, null_space):
-        """k, or where it is None the usual number of pairs, if there are as many."""
+        """k or, if it is None, `usual`, but at most as many as there are."""
         return k if k is not None else max(1, min(usual, _tufted.most_eigenpairs(self._laplacian, bool(null_space))))
 
     def _positive(self, function, k, spectrum, progress):
-        """Pairs of positive eigenvalues: the caller's, or the first k."""
+        """Pairs of positive eigenvalues: those of `spectrum`, or the first k if it is None."""
         if spectrum is None:
             most = _tufted.most_eigenpairs(self._laplacian, False)
             if most < 1:

@@ -1,4 +1,4 @@
-"""What clouds and meshes have in common: L and M, and all that is computed from them."""
+"""The class Surface: L and M, and all algorithms on them, which clouds and meshes share."""
 import html
 import warnings
 
@@ -13,17 +13,21 @@ from ._shape import Shape
 from ._spectral import Spectral
 from ._tufted import InvalidInput
 
-# Points that a notebook shows: a page of more would make its file larger than some ten megabytes.
+# A notebook shows surfaces of up to this many points as a page, which adds up to some ten megabytes to its file.
 _LARGEST_PAGE = 500_000
 
 
 class Surface(Spectral, Distances, Equations, Shape):
-    """L and M of a cloud or a mesh, and all that is computed from them. Made by PointCloud, Mesh, read and load.
+    """L and M of a cloud or a mesh, and the algorithms on them. Made by PointCloud, Mesh, read and load.
 
-    Arrays that show the library's own memory (L, M, status, ...) cannot be written to; take a copy to change one.
-    What is costly to make, a factor or a spectrum, is kept, so a second call with the same options is quick; of each
-    method the last one. Methods may run in several threads at once. All take `progress`, a function of a stage's name
-    and the fraction of it that is done, which stops the computation by returning False; Ctrl-C stops it as well.
+    N is the number of points. Lengths are in the points' unit. Results at a coincident point are those of its
+    representative. Arrays that show the library's own memory (L, M, status, ...) are read-only; copy one to change it.
+    What is costly to make, such as a factor or a spectrum, is kept, of each kind the last one, so that a second call
+    with the same options is fast. Several threads may call methods at once.
+
+    All long computations take `progress`, a function of a stage's name and the fraction of it that is begun, in [0, 1].
+    If it returns False the method raises Cancelled; Ctrl-C raises KeyboardInterrupt. Arguments of a wrong shape or out
+    of range raise InvalidInput, systems that cannot be solved SolverFailure.
     """
 
     def __init__(self, laplacian, points, faces, solving, options=None, geometry=None, source="",
@@ -32,13 +36,13 @@ class Surface(Spectral, Distances, Equations, Shape):
         self._points = points
         self._faces = faces
         self._solving = solving  # solver, memory_limit, threads
-        self._options = options  # of the build: a dict, or as the JSON of the folder that it was loaded from
-        self._geometry = geometry  # all that a file holds; points and faces are its own
+        self._options = options  # of the build: a dict or, after load(), JSON text of the folder's report
+        self._geometry = geometry  # content of the file that was read, whose points and faces are used; None: no file
         self._source = source
-        self._formats = formats  # that save() writes unless it is told
+        self._formats = formats  # that save() writes by default
         self._kept = {}
 
-    # What is known
+    # Properties
 
     @property
     def points(self):
@@ -52,46 +56,52 @@ class Surface(Spectral, Distances, Equations, Shape):
 
     @property
     def M(self):
-        """The area of each point, N float64, length^2. scipy.sparse.diags(M) is the matrix."""
+        """The lumped area of each point, N float64, length^2; the mass matrix is scipy.sparse.diags(M)."""
         return self._laplacian.M
 
     @property
     def status(self):
-        """Why a point takes part or not, N uint8: 0 active, 1 not finite, 2 coincident, 3 isolated."""
+        """Why a point does or does not take part, N uint8: 0 active, 1 not finite, 2 coincident, 3 isolated."""
         return self._laplacian.status
 
     @property
     def representative(self):
-        """The point that stands for a coincident one, else the point itself; N int32."""
+        """The point itself or, for a coincident point, the lowest index of an equal point; N int32."""
         return self._laplacian.representative
 
     @property
     def components(self):
-        """The connected component of each point, N int32; 0 has the most points, -1: takes no part."""
+        """The label of each point's connected component, N int32: 0 has the most active points; -1 at isolated and
+        non-finite points.
+        """
         return self._laplacian.component
 
     @property
     def boundary(self):
-        """Why the surface ends at a point, N uint8: 0 it does not, 1 rim, 2 depth jump, 3 triangles are missing."""
+        """Why the surface ends at a point, N uint8: 0 it does not, 1 rim (nothing lies beyond), 2 jump (another
+        surface lies beyond), 3 lost (triangles are missing).
+        """
         return self._laplacian.boundary
 
     @property
     def positions(self):
-        """Where lengths are measured, N x 3 float64: the points, noisy ones of a cloud put back onto the surface."""
+        """The positions between which lengths are measured, N x 3 float64: the points, but noisy ones of a cloud are
+        moved onto the surface.
+        """
         return self._laplacian.positions
 
     @property
     def frames(self):
-        """Tangent frames, N x 3 x 3 float64: of each point the x axis, the y axis and the normal."""
+        """Tangent frames, N x 3 x 3 float64: the x axis, the y axis and the normal of each point."""
         return self._keep("frames", lambda: frames_of(*self._frame_parts()))
 
     @property
     def report(self):
-        """What happened in the build: counts, lengths, areas and stages, as a dict."""
+        """Counts, lengths, areas, warnings and stages of the build, as a dict."""
         return self._laplacian.report
 
     def _warn(self):
-        """Warns of what a user must know of the build, once it is made or loaded."""
+        """Issues the warnings of the build's report, after building or loading."""
         for sentence in self.report["warnings"]:
             warnings.warn(f"{self._source or type(self).__name__}: {sentence}", TuftedWarning, stacklevel=3)
 
@@ -113,19 +123,19 @@ class Surface(Spectral, Distances, Equations, Shape):
         if len(self) > _LARGEST_PAGE:
             return f"<pre>{html.escape(repr(self))}</pre>"
         labels = self.components.astype(np.float64).reshape(-1, 1)
-        boundary = self.boundary.astype(np.float64).reshape(-1, 1) - 1  # none is grey
+        boundary = self.boundary.astype(np.float64).reshape(-1, 1) - 1  # "none" becomes -1, drawn grey
         fields = [("area of a point", "positive", self.M.reshape(-1, 1), "", [], ""),
                   ("component", "label", labels, "", [], ""),
                   ("boundary", "label", boundary, "", ["rim", "jump", "lost"], "none")]
         faces = np.zeros((0, 3), np.int32) if self._faces is None else self._faces
         page = _tufted.page(self._source or f"tufted.{type(self).__name__}", self._points, faces,
                             self._frame_parts()[0], fields)
-        # The page runs by itself: what it may do in a notebook ends at its frame.
+        # The sandbox keeps the page's scripts out of the notebook.
         return (f'<iframe srcdoc="{html.escape(page)}" sandbox="allow-scripts allow-downloads" width="100%" '
                 f'height="480" style="border: 0" title="{html.escape(repr(self))}"></iframe>')
 
     def __getstate__(self):
-        arrays = (self._points, self._faces) if self._geometry is None else None  # otherwise of the geometry
+        arrays = (self._points, self._faces) if self._geometry is None else None  # None: the geometry has them
         return {"laplacian": _tufted.state_of(self._laplacian), "arrays": arrays, "geometry": self._geometry,
                 "solving": self._solving, "options": self._options, "source": self._source, "formats": self._formats}
 
@@ -138,10 +148,10 @@ class Surface(Spectral, Distances, Equations, Shape):
     # Points, checks and files
 
     def nearest(self, positions, *, progress=None):
-        """The active points nearest to positions.
+        """Finds the active points nearest to positions.
 
-        positions: P x 3, or 3 values for one.
-        Returns P indices, or one.
+        positions: P x 3, or 3 values for a single one.
+        Returns P indices, or a single one.
         """
         single = np.ndim(positions) == 1
         found = _tufted.nearest(self._laplacian, self._points,
@@ -150,16 +160,20 @@ class Surface(Spectral, Distances, Equations, Shape):
         return int(found[0]) if single else found
 
     def validate(self, *, progress=None):
-        """Checks what is promised of L and M: symmetry, signs, sums, definiteness, and every weight against the cover.
+        """Checks what L and M promise: symmetry, signs, row sums, definiteness, and equality with values assembled anew
+        from the cover.
 
-        Returns a dict: ok, faults (a sentence for each broken promise), not_checked, and what was measured.
+        Returns a dict: ok, faults (a sentence for each broken promise), not_checked (a sentence for each check that
+        could not be made), and the measurements.
         """
         return _tufted.validate(self._laplacian, check.callback("validate", progress))
 
     def restricted_to(self, components="largest", *, progress=None):
-        """The surface of some components alone; all other points are isolated, and keep their index.
+        """Restricts the surface to some of its connected components. All other points become isolated and keep their
+        index.
 
-        components: "largest", a label of `components`, or several.
+        components: "largest" (that of the most active points), a label of `components`, or several.
+        Returns a surface of the same class.
         """
         if isinstance(components, str):
             if components != "largest":
@@ -173,23 +187,27 @@ class Surface(Spectral, Distances, Equations, Shape):
         return restricted
 
     def save(self, directory, *, formats=None, sign="psd", dummy=False, progress=None):
-        """Writes what `tufted laplacian` writes with the same options, all files or none.
+        """Writes the files that `tufted laplacian` writes with the same options, all of them or none.
 
-        formats: of npz, mtx, mat, spmat, ply, pcd, cover, triangles; None: npz and ply, or what load() has taken.
-        "cover" lets load() compute distances, too.
-        sign: of L in the files: "psd" as here, or "igl", negated.
-        dummy: whether points that take no part get values on the diagonals, for full rank.
+        directory: created if missing.
+        formats: of npz, mtx, mat, spmat, ply, pcd, cover, triangles; None: npz and ply or, after load(), the formats
+        loaded. Only with "cover" can distances and paths be computed after load().
+        sign: of L in the files: "psd", positive semidefinite as here, or "igl", negated.
+        dummy: whether points that take no part get values on the diagonals of L and M, for programs that expect full
+        rank.
+        Raises IoError if a file cannot be written.
         """
         formats = [formats] if isinstance(formats, str) else list(self._formats if formats is None else formats)
         geometry = self._geometry or _tufted.Geometry(self._points, self._faces)
         _tufted.save(directory, self._laplacian, geometry, formats, self._source, sign, bool(dummy), self._options,
                      check.callback("save", progress))
 
-    # What its parts share
+    # Shared by the base classes
 
     def _keep(self, name, make, settings=None):
-        """What `make` returns, made by the first call and by those whose settings are not those of the last one. Only
-        the last is kept, as others would fill the memory. Threads that come at once may make it twice."""
+        """Returns the last result of `make` under this name if it was made with the same settings, otherwise calls
+        `make`. Keeps one result per name, to bound the memory. Threads that call at once may each make it.
+        """
         kept = self._kept.get(name)
         if kept is None or kept[0] != settings:
             self._kept.pop(name, None)  # before the new one takes memory
@@ -204,21 +222,21 @@ class Surface(Spectral, Distances, Equations, Shape):
             raise InvalidInput(f"{function}: the cover is missing, must be saved: formats=('npz', 'ply', 'cover')")
 
     def _surface_faces(self, function):
-        """The triangles of a mesh, or those found on a cloud."""
+        """The triangles of a mesh, or triangles() of a cloud."""
         if self._faces is None:
             self._need_cover(function)
         return self._keep("faces", self.triangles)
 
     def _frame_parts(self):
-        """Normals and tangents."""
+        """Normals and tangents, N x 3 each."""
         return self._laplacian.normals, self._laplacian.tangents
 
     def _signed_frames(self, viewpoint=None, progress=None, up=None):
-        """Normals and tangents whose signs agree."""
+        """Frames whose normals have one sign on each component, see normals(), as normals and tangents."""
         orientation = self._orientation()
         if viewpoint is not None and up is not None:
             raise InvalidInput("normals: viewpoint and up are both given, must be one at most")
-        if viewpoint is None and up is None and orientation == 2:  # towards the sensor
+        if viewpoint is None and up is None and orientation == 2:  # Orientation::viewpoint
             return self._frame_parts()
         progress = check.callback("normals", progress)
         if viewpoint is not None:

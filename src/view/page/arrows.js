@@ -1,4 +1,4 @@
-// Arrows of a vector field: a part of the points, spread evenly, has one.
+// Arrows of a vector field, at an evenly spread part of the points.
 import {
   ConeGeometry, CylinderGeometry, DoubleSide, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, ShaderMaterial,
 } from 'three';
@@ -6,7 +6,7 @@ import { arrowFragment, arrowVertex } from './shaders.js';
 
 const most_arrows = 1500;
 
-/** Rows in different cells of a lattice, so fine that there are at most `most_arrows`; of each cell the middle one. */
+/** At most `most_arrows` rows: the middle one in each cell of a lattice. */
 function spreadRows(positions, values) {
   const { shown, drawn, count } = positions;
   for (let cells = 64; ; cells /= 1.25) {
@@ -38,7 +38,7 @@ function shape() {
   return [geometry, new Float32Array(places)];
 }
 
-/** @param colorAt gives the colour of a row as numbers from 0 to 1 */
+/** @param colorAt returns the colour of a row as numbers from 0 to 1 */
 export function makeArrows(positions, values, spacing, uniforms, colorAt) {
   const { rows, cell } = spreadRows(positions, values);
   const [geometry, places] = shape();
@@ -47,7 +47,7 @@ export function makeArrows(positions, values, spacing, uniforms, colorAt) {
   const foot = new Float32Array(3 * rows.length);
   const arrow = new Float32Array(3 * rows.length);
   const shade = new Float32Array(3 * rows.length);
-  // Lengths in those of the colours' end; outliers are no longer than two of these.
+  // Lengths relative to the end of the colour map, at most 2.
   const whole = values.ranges.usual[1] || 1;
   rows.forEach((row, i) => {
     const shortened = Math.min(1, 2 / (values.at(row) / whole));

@@ -13,7 +13,7 @@ const script = await build({
   format: 'iife',
   target: 'es2022',
   charset: 'ascii',
-  legalComments: 'none', // the whole licence is in the page
+  legalComments: 'none', // the page contains the whole licence
 });
 const style = await transform(await text('style.css'), { loader: 'css', minify: true });
 const licence = await text('node_modules/three/LICENSE');

@@ -1,4 +1,4 @@
-// What the page shows, and how a field is shown by default and by what the state says.
+// The state of the page at first, and how a field is shown by default and by the state.
 import { roundUp } from './format.js';
 
 export const startState = () => ({
@@ -17,16 +17,16 @@ export function mapOf(field, state, maps) {
   return maps.find((map) => map.name === name) ?? maps[0];
 }
 
-/** Whether a field can have isolines or a grid. Those of a logarithmic scale would lie at powers of ten, if at all. */
+/** Whether a field can have isolines or a grid; not on a logarithmic scale, where intervals differ. */
 export const canHaveLines = ({ kind }) => ['scalar', 'diverging', 'distance', 'coordinates'].includes(kind);
 export const hasLines = (field, state) =>
   canHaveLines(field) && (state.lines[state.field] ?? ['distance', 'coordinates'].includes(field.kind));
 
 /** The interval of isolines: a round number, finer or coarser by the slider.
- *  @param spacing of the points, in their unit */
+ *  @param spacing spacing of the points, in their unit */
 export function intervalOf(field, state, [low, high], spacing) {
   if (!hasLines(field, state) || !(high > low)) return 0;
-  // Lines of points are as wide as these, so at least this far apart; distances have the unit of positions.
+  // Lines through points are as wide as points, so intervals of lengths are at least a few spacings.
   const is_length = ['distance', 'coordinates'].includes(field.kind);
   const least = state.shown === 'points' && is_length ? 4.5 * spacing : 0;
   const wanted = (high - low) / (field.kind === 'coordinates' ? 8 : 16);

@@ -24,7 +24,7 @@ export function mapTexture(map) {
   return texture;
 }
 
-/** The colour of a label, which the map gives again where it ends; null for negative ones and none. */
+/** The colour of a label, in a map whose colours repeat; null for negative labels and NaN. */
 export function labelColor(map, label) {
   if (!(label >= 0) || !Number.isFinite(label)) return null;
   return map.colors[Math.round(label) % map.colors.length];

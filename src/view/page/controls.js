@@ -1,5 +1,5 @@
-// Turning, moving and zooming by mouse, touch and keys. The eye turns freely about the axes of the screen: scans have no
-// direction that is surely up.
+// Turning, moving and zooming by mouse, touch and keys. The eye turns freely about the axes of the screen, because
+// scans have no certain up direction.
 import { Quaternion, Vector3 } from 'three';
 
 const x_axis = new Vector3(1, 0, 0);
@@ -46,7 +46,7 @@ export class Controls {
     this.events.changed();
   }
 
-  /** How long a pixel is in space at the target. */
+  /** The size of a pixel at the target, in the units of space. */
   pixel() {
     return (2 * this.distance * Math.tan((this.camera.fov * Math.PI) / 360)) / this.element.clientHeight;
   }
@@ -62,7 +62,7 @@ export class Controls {
     this.place();
   }
 
-  /** Changes the distance; what is under the place on the screen stays there. */
+  /** Changes the distance, so that what is at a place on the screen stays there. */
   zoom(factor, x = this.element.clientWidth / 2, y = this.element.clientHeight / 2) {
     const distance = Math.min(1e4, Math.max(1e-4, this.distance * factor));
     const right = (x - this.element.clientWidth / 2) * (1 - distance / this.distance);
@@ -76,7 +76,7 @@ export class Controls {
     this.element.focus({ preventScroll: true });
     try {
       this.element.setPointerCapture(event.pointerId);
-    } catch { /* the finger is gone already */ }
+    } catch { /* the finger has left the screen */ }
     this.pointers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
     if (this.pointers.size === 1) Object.assign(this, { travel: 0, fingers: 1 });
     this.fingers = Math.max(this.fingers, this.pointers.size);
@@ -92,7 +92,7 @@ export class Controls {
     const step = { x: event.offsetX - last.x, y: event.offsetY - last.y };
     Object.assign(last, { x: event.offsetX, y: event.offsetY });
     this.travel += Math.hypot(step.x, step.y);
-    if (this.travel < 4) return; // a hand that shakes
+    if (this.travel < 4) return; // ignores a shaking hand
     const after = [...this.pointers.values()];
     if (after.length === 1) {
       const turns = Math.PI / Math.max(300, Math.min(this.element.clientWidth, this.element.clientHeight));

@@ -1,4 +1,4 @@
-// The numbers of the page: elements of deflated base64, see src/view/page_block.cpp and page_columns.cpp.
+// Decodes the numbers of the page, elements of deflated base64: see src/view/page_block.cpp and page_columns.cpp.
 
 const top_level = 65534;
 const no_level = 65535;
@@ -18,7 +18,7 @@ async function inflated(block) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// Bytes of one weight stand together; this puts those of each number side by side.
+// Undoes bytePlanes() of page_block.cpp: puts the bytes of each number side by side.
 function joined(planes, width) {
   const count = planes.length / width;
   const bytes = new Uint8Array(planes.length);
@@ -39,8 +39,8 @@ export async function doubles(block) {
 }
 
 /**
- * Values at the points, for the graphics card and for people. `scaled` is (value - least) / span as floats, and `known`
- * 255 where there is a value and 0 where there is none.
+ * Values at the points, for the graphics card and for people. `scaled` is (value - least) / span as floats; `known` is
+ * 255 where there is a value, otherwise 0.
  */
 export class Values {
   constructor(count) {
@@ -50,11 +50,11 @@ export class Values {
   }
 
   toScaled(value) {
-    return (value / 2 - this.least / 2) / this.half_span; // halves, as a difference may overflow
+    return (value / 2 - this.least / 2) / this.half_span; // halves, because a difference may overflow
   }
 }
 
-/** The values of a column of levels, which `at(row)` gives as doubles. */
+/** The values of a column of levels; `at(row)` returns one as a double. */
 export async function levelValues(column) {
   const levels = await integers(column.levels, Uint16Array);
   const values = new Values(levels.length);
@@ -79,7 +79,7 @@ export async function levelValues(column) {
   return values;
 }
 
-/** The lengths of vectors whose coordinates are columns of levels; `parts` are these. */
+/** The lengths of vectors whose coordinates are the columns of levels `parts`. */
 export async function lengthValues({ columns, ranges }) {
   const parts = [];
   for (const column of columns) parts.push(await levelValues(column));
@@ -101,7 +101,7 @@ export async function lengthValues({ columns, ranges }) {
   return values;
 }
 
-/** Integers that name things: `at(row)` is the integer, NaN where there is none. */
+/** A column of labels: `at(row)` is the integer, or NaN. */
 export async function labels(column) {
   const names = await doubles(column.names);
   const indices = await integers(column.indices, Uint32Array);
@@ -124,7 +124,7 @@ export async function positions(columns) {
   const largest = Math.max(...columns.map((column) => column.step)) || 1;
   const shown = new Float32Array(3 * count);
   const drawn = new Uint8Array(count);
-  const farthest = 1e6; // sides of the box; what lies beyond is far out of view anyway
+  const farthest = 1e6; // in sides of the box; points beyond it are out of view
   const sides = columns.map((column) => column.step / largest);
   for (let i = 0; i < count; ++i) {
     drawn[i] = axes[0].known[i] & axes[1].known[i] & axes[2].known[i] & 1;

@@ -1,9 +1,9 @@
-// A column of a field as it is shown: what the graphics card gets, what the legend says, and the value of a point.
+// A column of a field as shown: data for the graphics card, the legend, and the value of a point.
 import { labelColor } from './color.js';
 import { integers, labels, lengthValues, levelValues } from './data.js';
 import { digitsFor, number, withUnit } from './format.js';
 
-const most_kept = 6; // columns that stay unpacked
+const most_kept = 6; // most columns that are kept decoded
 const kept = new Map();
 
 async function unpack(field, column) {
@@ -13,7 +13,7 @@ async function unpack(field, column) {
   return levelValues(field.columns[column]);
 }
 
-/** Whether the columns are pictures of their own. */
+/** Whether each column is shown by itself. */
 export const hasColumns = (field) =>
   !['vector', 'coordinates', 'color'].includes(field.kind) && field.columns.length > 1;
 
@@ -21,7 +21,7 @@ export async function unpacked(scene, index, column) {
   const key = `${index} ${column}`;
   const values = kept.get(key) ?? (await unpack(scene.fields[index], column));
   kept.delete(key);
-  kept.set(key, values); // the last one used comes last
+  kept.set(key, values); // moves it to the end: the first one is the oldest
   if (kept.size > most_kept) kept.delete(kept.keys().next().value);
   return values;
 }
@@ -38,7 +38,7 @@ export function tintsOf(field, values, map) {
   return tints;
 }
 
-/** Coordinates as the graphics card gets them, scaled as their lengths. */
+/** Coordinates for the graphics card, scaled in the same way as their lengths. */
 export function pairsOf(values) {
   const count = values.scaled.length;
   const pairs = new Float32Array(2 * count);
@@ -50,7 +50,7 @@ export function pairsOf(values) {
 const noValue = (field) => field.noValue || 'no value';
 const labelText = (field, label) => (label >= 0 ? field.names[label] ?? number(label, 16) : noValue(field));
 
-/** What the page says of the value of a point. */
+/** The text that the page shows for the value of a point. */
 export function valueText(field, values, row) {
   if (field.kind === 'color') {
     const color = values.colors[row];

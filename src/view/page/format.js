@@ -1,6 +1,6 @@
 // Numbers and texts for people.
 
-/** A number with at most `digits` digits that matter, without trailing zeros. */
+/** A number with at most `digits` significant digits, without trailing zeros. */
 export function number(value, digits = 4) {
   if (Number.isNaN(value)) return 'no value';
   if (!Number.isFinite(value)) return value > 0 ? '∞' : '−∞';
@@ -15,13 +15,13 @@ export function number(value, digits = 4) {
   return text.replaceAll('-', '−');
 }
 
-/** How many digits of a number matter where others differ by `step`, at least `least`. */
+/** How many significant digits tell numbers that differ by `step` apart; at least `least`. */
 export function digitsFor(value, step, least = 4) {
   const digits = Math.ceil(Math.log10(Math.abs(value) / step));
   return step > 0 && digits > least ? Math.min(digits, 15) : least;
 }
 
-/** A number with as many decimals as its step has a meaning for. */
+/** A number with as many decimals as its step needs. */
 export function stepped(value, step) {
   if (!Number.isFinite(value)) return number(value);
   const decimals = Math.ceil(-Math.log10(step));
@@ -32,7 +32,7 @@ export function stepped(value, step) {
 export const count = (value) => value.toLocaleString('en');
 export const withUnit = (text, unit) => (unit ? `${text} ${unit}` : text);
 
-/** The nearest of 1, 2 and 5 times a power of ten, not below `value`. */
+/** The least of 1, 2 and 5 times a power of ten that is not below `value`. */
 export function roundUp(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   return power * [1, 2, 5, 10].find((factor) => factor * power >= value * (1 - 1e-9));
@@ -47,7 +47,7 @@ export function ticks(low, high, wanted = 4) {
   return found.map((value) => Number(value.toPrecision(15)));
 }
 
-/** Logarithms to base 10 of round numbers, between those of the ends of a scale. */
+/** Logarithms to base 10 of round numbers, between the ends of a scale, which are logarithms too. */
 export function logarithmicTicks(low, high) {
   if (!(high - low >= 1)) return ticks(10 ** low, 10 ** high).map(Math.log10);
   const found = [];

@@ -1,4 +1,4 @@
-// The legend, drawn on a canvas, so that saved pictures have the same one.
+// The legend. It is drawn on a canvas, so that saved pictures have the same one.
 import { cssColor } from './color.js';
 import { digitsFor, logarithmicTicks, number, ticks, withUnit } from './format.js';
 
@@ -12,7 +12,7 @@ function cut(context, text, room) {
   return `${text.slice(0, end)}…`;
 }
 
-/** What a legend says, in order; `words()` is the same for those who hear the page. */
+/** The content of a legend, in order; `words()` is the same for screen readers. */
 export function legendLines(legend) {
   const lines = [{ kind: 'title', text: legend.title }];
   if (legend.colors) lines.push({ kind: 'bar' });
@@ -27,7 +27,7 @@ export function legendLines(legend) {
 const heights = { title: 22, bar: 40, swatch: 20, note: 20 };
 export const legendSize = (legend) => [width, legendLines(legend).reduce((sum, line) => sum + heights[line.kind], 6)];
 
-/** A number of the scale, with the digits in which its ends differ. */
+/** A number on the scale, with enough digits to tell the ends apart. */
 function rangeText({ range, is_logarithmic }, shown) {
   const valueOf = (place) => (is_logarithmic ? 10 ** place : place);
   return number(valueOf(shown), digitsFor(valueOf(shown), (valueOf(range[1]) - valueOf(range[0])) / 100));

@@ -45,7 +45,7 @@ function applyTheme() {
 const field = () => scene.fields[state.field];
 
 let wanted = 0;
-/** Shows the field and column of the state. Where another one is asked for meanwhile, that one wins. */
+/** Shows the field and column of the state, unless the state changes while they are decoded. */
 async function showField() {
   const turn = ++wanted;
   if (!field()) {
@@ -85,12 +85,12 @@ function applyColors() {
     // All values equal: the middle colour.
     stage.uniforms.range.value.set(width > 0 ? low : low - 0.5, width > 0 ? 1 / width : 1);
     stage.set({ mode: 1 });
-    // Distances and coordinates have the unit of positions: their lines are as wide as a point.
+    // Lines of distances and coordinates, which have the unit of positions, are as wide as a point.
     const width_of_point = (0.65 * stage.spacing * stage.positions.unit) / interval;
     const is_length = one.kind === 'distance' || one.kind === 'coordinates';
     stage.set({ thickness: is_length ? Math.min(Math.max(width_of_point, 0.03), 0.11) : 0.08 });
     const scaled = interval > 0 ? interval / 2 / current.half_span : 0;
-    // A float has no digits left to count lines from a far 0; any line will do to count from.
+    // Floats cannot count lines from a 0 that is far away, so they are counted from any line.
     const start = current.toScaled(0);
     stage.set({ [one.kind === 'coordinates' ? 'grid' : 'interval']: scaled, start: scaled > 0 ? start % scaled : 0 });
     if (one.kind === 'vector' && state.arrows) {
@@ -115,7 +115,7 @@ function applyClip() {
   stage.uniforms.clip.value.set(...axis.map((part) => sign * part), sign * (2 * state.clip_at - 1) * half * 1.001);
 }
 
-/** Draws what has changed but for the values. */
+/** Applies the state, except the values of the field. */
 function refresh() {
   applyTheme();
   stage.is_lit = state.is_lit;
@@ -150,7 +150,7 @@ const toggleTheme = () => set({ theme: document.documentElement.dataset.theme ==
 const reset = () => stage.look(scene.start.eye, scene.start.up, scene.start.zoom);
 
 function save() {
-  stage.drawNow(); // the browser forgets what was drawn before
+  stage.drawNow(); // because the browser does not keep what was drawn
   savePicture(get('canvas'), legend, themeColors(), scene.title);
 }
 

@@ -1,4 +1,4 @@
-// The panel of settings. What is set changes the state of the page.
+// The panel of settings, which change the state of the page.
 import { canHaveLines, hasLines, mapOf, mapsFor } from './choices.js';
 import { hasColumns } from './fields.js';
 import { number } from './format.js';

@@ -1,4 +1,4 @@
-// A path over the surface: a line of a width in pixels with a rim, stippled where it is hidden, and circles at its ends.
+// A path on the surface: a line with a rim, of a width in pixels, dashed where it is hidden, with circles at its ends.
 import {
   GreaterDepth, InstancedBufferAttribute, InstancedBufferGeometry, BufferAttribute, LessEqualDepth, Mesh, ShaderMaterial,
 } from 'three';
@@ -7,7 +7,7 @@ import { pathFragment, pathVertex } from './shaders.js';
 const widths = { rim: 6, line: 3, hidden: 2, end_rim: 13, end: 10, hole: 5 }; // pixels
 const white = [1, 1, 1];
 
-/** Corners as the positions of points are shown, without those that are not finite. */
+/** The corners in the coordinates of shown points, without those that are not finite. */
 function shownCorners(corners, { axes, sides }) {
   const places = [];
   for (let i = 0; i + 2 < corners.length; i += 3) {
@@ -17,7 +17,7 @@ function shownCorners(corners, { axes, sides }) {
   return places;
 }
 
-/** @param strokes lists of from, to, width and colour, later ones above earlier ones */
+/** @param strokes lists of from, to, width and colour; later ones are drawn above earlier ones */
 function strokesMesh(strokes, uniforms, options) {
   const geometry = new InstancedBufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]), 3));
@@ -34,7 +34,7 @@ function strokesMesh(strokes, uniforms, options) {
   });
   const mesh = new Mesh(geometry, material);
   mesh.frustumCulled = false;
-  mesh.renderOrder = 1; // over the points, whose depths hide it
+  mesh.renderOrder = 1; // after the points, whose depths may hide it
   return mesh;
 }
 

@@ -1,7 +1,7 @@
-// Which point lies under the pointer.
+// Finds the point under the pointer.
 import { Matrix4, Vector3 } from 'three';
 
-/** Places on the screen: [x, y, depth] in pixels of the page of a point in space, null behind the eye. */
+/** Maps points in space to the screen: [x, y, depth], x and y in pixels of the page; null behind the eye. */
 export function projector(camera, element) {
   const m = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
   const width = element.clientWidth / 2;
@@ -28,7 +28,7 @@ export function pickPoint(stage, x, y, reach) {
     if (!drawn[i] || !project(shown[3 * i], shown[3 * i + 1], shown[3 * i + 2], at)) continue;
     const away = Math.max(Math.abs(at[0] - x), Math.abs(at[1] - y));
     if (away > reach || is_clipped(i)) continue;
-    // The front surface first, on it the nearest: a pixel aside counts as one pixel in depth.
+    // Prefers the front surface, and on it the nearest point: a pixel aside counts as two pixels of depth.
     const score = at[2] + Math.hypot(at[0] - x, at[1] - y) * stage.controls.pixel() * 2;
     if (score < best_score) [best, best_score] = [i, score];
   }

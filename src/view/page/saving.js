@@ -1,8 +1,8 @@
-// Saving what is seen as a picture.
+// Saves what is shown as a picture.
 import { drawLegend, legendSize } from './legend.js';
 import { element } from './ui.js';
 
-/** A PNG file of the canvas, with the legend. @param theme colours: ink, soft, back */
+/** Makes a PNG file of the canvas, with the legend. @param theme colours: ink, soft, back */
 export function savePicture(source, legend, theme, title) {
   const canvas = element('canvas', { width: source.width, height: source.height });
   const context = canvas.getContext('2d');

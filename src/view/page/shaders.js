@@ -1,4 +1,4 @@
-// What runs on the graphics card. A surface that faces the eye has exactly the colour of its value.
+// The programs of the graphics card. A surface that faces the eye has exactly the colour of its value.
 
 const shared = `
   uniform int mode;        // 0: one colour, 1: by the map, 2: a colour of each point
@@ -148,7 +148,7 @@ export const arrowFragment = `
     gl_FragColor = vec4(v_color * light, 1.0);
   }`;
 
-// Each stroke is as wide on the screen wherever it is, with round ends.
+// Strokes have the same width on the screen at any distance, and round ends.
 export const pathVertex = `
   attribute vec3 begin, end;
   attribute vec3 shade;

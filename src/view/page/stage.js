@@ -1,4 +1,4 @@
-// The points, triangles and arrows in space, and how they get onto the screen.
+// Draws the points, triangles and arrows.
 import {
   BufferAttribute, BufferGeometry, Color, ColorManagement, DepthTexture, DoubleSide, LinearSRGBColorSpace, Mesh,
   NearestFilter, OrthographicCamera, PerspectiveCamera, Points, Scene, ShaderMaterial, UnsignedIntType, Vector2, Vector4,
@@ -9,11 +9,11 @@ import { Controls } from './controls.js';
 import { makePath } from './path.js';
 import { domeFragment, domeVertex, pointFragment, pointVertex, triangleFragment, triangleVertex } from './shaders.js';
 
-ColorManagement.enabled = false; // colours of the maps go to the screen as they are
+ColorManagement.enabled = false; // shows the colours of the maps unchanged
 
-/** The width of a point in radii of its disc: less than a disc lying in the surface, as points face the eye. */
+/** The width of a point in radii of its disc: less than the disc's own width, because points face the eye. */
 const point_width = 1.3;
-/** The radius of a disc on a square grid, in its spacing: src/view/spacing.cpp. */
+/** The radius of a disc on a square grid, in spacings, see src/view/spacing.cpp. */
 const grid_radius = 0.85 * Math.SQRT2;
 
 export class Stage {
@@ -26,7 +26,7 @@ export class Stage {
     this.controls = new Controls(this.camera, element, { ...events, changed: () => { this.draw(); events.changed(); } });
     this.spacing = radii.quartile / grid_radius;
     this.is_lit = true;
-    this.is_waiting = true; // nothing is drawn before there is all that the first picture shows
+    this.is_waiting = true; // until everything that the first picture shows is there
     this.size_factor = 1;
     this.makeUniforms();
     this.makeGeometry(directions, triangles);
@@ -111,7 +111,7 @@ export class Stage {
     this.dome_camera = new OrthographicCamera();
   }
 
-  /** Gives the points values: `scaled` and `known` of Values, `tints` (4 bytes each), `pairs` (2 floats each). */
+  /** Sets the values of the points: `scaled` and `known` of Values, `tints` (4 bytes each), `pairs` (2 floats each). */
   show({ scaled = this.empty.value, known = this.empty.known, tints = null, pairs = null }) {
     const attributes = {
       value: new BufferAttribute(scaled, 1), known: new BufferAttribute(known, 1, true),
@@ -134,17 +134,17 @@ export class Stage {
     this.scene.add(this.arrows);
   }
 
-  /** Shows a line from corner to corner, as numbers in the order x, y, z, in a colour of numbers from 0 to 1. */
+  /** Shows a line through corners (x, y, z of each), in a colour of numbers from 0 to 1. */
   showPath(corners, color) {
     for (const part of makePath(corners, this.positions, this.uniforms, color)) this.scene.add(part);
   }
 
-  /** Looks at the middle from a direction, from where all is seen, or nearer by `zoom`. */
+  /** Looks at the middle from a direction, at a distance from which all is seen, divided by `zoom`. */
   look(eye, up, zoom = 1) {
     this.controls.look(eye, up, (toEye) => this.distanceToSee(toEye) / zoom);
   }
 
-  /** How far the eye must be from the middle of the box to see all points in it, by the rows of the matrix `toEye`. */
+  /** The distance of the eye from the middle of the box at which all points are seen, by the rows of `toEye`. */
   distanceToSee(toEye) {
     const { shown, drawn, count } = this.positions;
     const m = toEye.elements;
@@ -192,7 +192,7 @@ export class Stage {
       is_lit: this.is_lit, size: point_width * this.size_factor,
       least_size: 1.5 * Math.min(2, this.size_factor) * this.renderer.getPixelRatio(),
       screen: size, ratio: this.renderer.getPixelRatio(),
-      // Points face the eye: on a slope the next one stands out as far as its disc is wide.
+      // Points face the eye, so on a slope the next one is nearer to it by up to the width of its disc.
       path_lift: this.radii.quartile * (this.points.visible ? point_width * this.size_factor : 0.5),
       pixels: size.y / (2 * Math.tan((this.camera.fov * Math.PI) / 360)),
     });
@@ -203,7 +203,7 @@ export class Stage {
       this.renderer.setRenderTarget(null);
       this.dome_uniforms.pixel.value.set(1 / size.x, 1 / size.y).multiplyScalar(this.renderer.getPixelRatio());
       this.dome_uniforms.near_far.value.set(this.camera.near, this.camera.far);
-      // Large points are steps themselves; full light would draw each of them like a scale.
+      // Large points form steps, at which full shading would outline each of them.
       const splat = (this.uniforms.size.value * this.radii.quartile * this.uniforms.pixels.value) / this.controls.distance;
       const softness = Math.min(1, Math.max(0.2, 4 / splat));
       this.dome_uniforms.strength.value = this.is_lit ? (this.has_normals ? 60 : 160) * softness : 0;

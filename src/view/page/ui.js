@@ -1,4 +1,4 @@
-// The panel with its controls. Each control reads and changes one entry of the state.
+// The controls of the panel. Each one reads and changes an entry of the state.
 
 /** An element of HTML; texts become text, never HTML. */
 export function element(tag, attributes = {}, ...children) {
@@ -11,7 +11,7 @@ export function element(tag, attributes = {}, ...children) {
 }
 
 export const row = (name, ...content) => element('label', { class: 'row' }, element('span', {}, name), element('div', {}, ...content));
-// A row of buttons is no label: a click on its name presses none of them.
+// Not a <label>, because a click on the name must not press a button.
 const groupRow = (name, ...content) =>
   element('div', { class: 'row', role: 'group', 'aria-label': name }, element('span', {}, name), element('div', {}, ...content));
 

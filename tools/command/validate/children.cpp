@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int milliseconds_between_looks = 50;
 
-/// A running process of this program; killed when it goes out of scope before its end.
+/// A running process of this program. The destructor kills it if it has not ended.
 class Child {
  public:
   Child(std::size_t number, std::vector<std::string> arguments) : number_(number) {
@@ -40,7 +40,7 @@ class Child {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-    // Not fork(), which threads that wait for work do not survive.
+    // Not fork(), whose child has only the calling thread.
     const int error = posix_spawn(&pid_, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
@@ -62,7 +62,7 @@ class Child {
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   std::string& text() { return text_; }
 
-  /// Takes what it has written. @returns whether it has closed its output, as it does when it ends
+  /// Reads what it has written. Returns whether it has closed its output, as it does when it ends.
   bool read() {
     std::array<char, 1 << 16> part = {};
     const ssize_t count = ::read(output_, part.data(), part.size());

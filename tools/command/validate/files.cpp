@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Adds the files below a folder. Links to folders go to `links`, to be followed when all that is no link was seen.
+/// Adds the files below a folder. Links to folders are appended to `links`, to be followed after everything else.
 void addBelow(const fs::path& folder, std::set<fs::path>& seen, std::vector<fs::path>& links,
               std::vector<Found>& found) {
   std::error_code error, ignored;
@@ -24,7 +24,7 @@ void addBelow(const fs::path& folder, std::set<fs::path>& seen, std::vector<fs::
       links.push_back(*at);
     else if (is_folder)
       addBelow(*at, seen, links, found);
-    else if (tufted::isReadable(*at) && at->path().extension() != ".npy")  // most arrays are results and not points
+    else if (tufted::isReadable(*at) && at->path().extension() != ".npy")  // most arrays are results, not points
       found.push_back({*at});
   }
   if (error) found.push_back({folder, "cannot list: " + error.message()});
@@ -32,11 +32,11 @@ void addBelow(const fs::path& folder, std::set<fs::path>& seen, std::vector<fs::
 
 std::vector<Found> filesBelow(const fs::path& top) {
   std::vector<Found> found;
-  std::set<fs::path> seen;  // links may lead back
+  std::set<fs::path> seen;  // folders visited, because links may form cycles
   for (std::vector<fs::path> folders = {top}; !folders.empty();) {
     std::vector<fs::path> links;
     for (const fs::path& folder : folders) addBelow(folder, seen, links, found);
-    std::sort(links.begin(), links.end());  // of two links to one folder the first counts
+    std::sort(links.begin(), links.end());  // so that of two links to one folder the first in this order counts
     folders = std::move(links);
   }
   std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.path < b.path; });

@@ -38,7 +38,7 @@ void limitMemory(int megabytes) {
 #ifdef __SANITIZE_ADDRESS__
   throw tufted::InvalidInput("--memory: " + std::to_string(megabytes) + ", has no meaning under the address sanitizer");
 #else
-  // What the process allocates, and not its address space, which starts with that of the libraries.
+  // Limits what the process allocates, not its address space, which includes that of the libraries.
   const rlim_t bytes = static_cast<rlim_t>(megabytes) << 20;
   const rlimit limit = {bytes, bytes};
   setrlimit(RLIMIT_DATA, &limit);
@@ -84,7 +84,7 @@ Json figuresOf(const tufted::LaplacianCheck& check, const tufted::Report& report
 }
 
 /// Reads a file and builds its Laplacian as `tufted laplacian` does without options.
-/// @param stage says at any time what is being done
+/// @param[out] stage name of the current step, for messages of exceptions
 tufted::Laplacian buildFrom(const OneFile& file, Json& row, std::string& stage) {
   const tufted::Geometry geometry = tufted::read(file.path, file.as);
   if (!geometry.notes.empty()) row["warnings"] = geometry.notes;
@@ -117,7 +117,7 @@ void judgeInto(const OneFile& file, Json& row, std::string& stage) {
 }  // namespace
 
 int judge(const OneFile& file) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // however the command ends that started this process
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends this process with the one that started it
   releaseInterrupt();
   limitTime(file.seconds);
   if (file.memory) limitMemory(*file.memory);
@@ -125,7 +125,7 @@ int judge(const OneFile& file) {
   std::string stage = "read";
   const auto end = [&row, &file](const char* result, std::string reason) {
     const std::string path = file.path.string() + ": ";
-    if (reason.starts_with(path)) reason.erase(0, path.size());  // the table names the file
+    if (reason.starts_with(path)) reason.erase(0, path.size());  // the table shows the name of the file itself
     row["result"] = result;
     row["reasons"] = {std::move(reason)};
   };
@@ -142,6 +142,6 @@ int judge(const OneFile& file) {
     end("FAILED", error.what());
   }
   row["memory_mb"] = peakMemory();
-  std::puts(row.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());  // a path need not be UTF-8
+  std::puts(row.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());  // paths need not be UTF-8
   return std::fflush(stdout) == 0 ? exit_done : exit_failed;
 }

@@ -5,16 +5,16 @@
 
 #include "tufted/io/read.h"
 
-/// A file to validate, or the folder that `tufted laplacian --out` wrote.
+/// A file to validate, or a folder that `tufted laplacian --out` wrote.
 struct OneFile {
   std::filesystem::path path;
-  bool is_operator = false;  ///< a folder
+  bool is_operator = false;  ///< whether it is a folder
   tufted::ReadAs as = tufted::ReadAs::automatic;
   int threads = 1;
-  double seconds = 0;         ///< this process ends after so many by SIGALRM; 0: no limit
-  std::optional<int> memory;  ///< limit in MB of what this process allocates
+  double seconds = 0;         ///< time limit, after which SIGALRM ends this process; 0: none
+  std::optional<int> memory;  ///< limit of the memory that this process allocates, in MB
 };
 
-/// Reads, builds, checks, and prints what it found as a line of JSON. For a process that does nothing else.
-/// @returns the exit code, that of a file that fails is exit_done, too
+/// Reads, builds and checks a file, and prints the result as a line of JSON. For a process that does nothing else.
+/// @return the exit code, exit_done also for a file that fails
 int judge(const OneFile& file);

@@ -12,7 +12,7 @@ struct Column {
   const char* title;
   int width;
   const char* member;
-  const char* format;  ///< of numbers that are no integers
+  const char* format;  ///< printf format for decimals
 };
 
 constexpr Column columns[] = {{"points", 9, "points", ""},
@@ -57,14 +57,14 @@ std::string tableHeader() {
 
 std::string tableLine(const Json& row) {
   std::string line = row.at("result").get<std::string>();
-  line.resize(std::max(line.size(), std::size_t{7}), ' ');  // "REFUSED" is the longest
+  line.resize(std::max(line.size(), std::size_t{7}), ' ');  // the length of "REFUSED", the longest
   for (const Column& column : columns) line += aligned(cell(row, column), column.width);
   line += "  " + row.at("file").get<std::string>();
   std::string separator = ": ";
   for (const char* member : {"reasons", "not_checked"})
     for (const Json& reason : row.value(member, Json::array()))
       line += std::exchange(separator, "; ") + reason.get<std::string>();
-  // Names of files and messages may hold anything, but this is one line.
+  // Names of files and messages may contain control characters, such as newlines.
   std::ranges::replace_if(
       line, [](unsigned char c) { return c < ' ' || c == 127; }, '?');
   return line;

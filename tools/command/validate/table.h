@@ -3,7 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// The lines of the table that `validate` prints; each ends in the file and what is to be said about it.
+/// The first line of the table that `validate` prints.
 std::string tableHeader();
-/// @param row members as the worker names them; those that are absent show as "-"
+/// The line of a file, which ends with its name and messages.
+/// @param row result of judge(); missing members are shown as "-"
 std::string tableLine(const nlohmann::ordered_json& row);
