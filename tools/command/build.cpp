@@ -44,38 +44,48 @@ tufted::Laplacian cloudLaplacian(const tufted::Geometry& geometry, const Input& 
 
 void addBuildOptions(CLI::App& command, Build& build) {
   build.neighbors = addNumber(command, "--neighbors", build.cloud.neighbors, 3, std::numeric_limits<int>::max(),
-                              "Neighbours per point, clouds only (30)")
+                              "Number of neighbours per point, clouds only (30)")
                         ->type_name("K");
   build.cloud_only.insert(
       build.cloud_only.end(),
-      {build.neighbors, addChoice(command, "--preset", build.preset, presets, "Kind of cloud, clouds only (scan)"),
-       addChoice(command, "--structure", build.structure, structures,
-                 "Neighbours by the scan's own structure, clouds only (automatic)"),
+      {build.neighbors,
+       addChoice(command, "--preset", build.preset, presets,
+                 "Kind of cloud: exact samples, spinning laser scanner, or any other scan; clouds only (scan)"),
+       addChoice(
+           command, "--structure", build.structure, structures,
+           "Neighbours are pixels (image), nearest points (none) or on rings of a scanner; clouds only (automatic)"),
        command.add_flag("--normals", build.normals,
-                        "Use the file's normals for the tangent planes, not those of the PCA; clouds only"),
-       command.add_flag("--denoise", build.denoise,
-                        "Move noisy points onto the surface with any preset, and start from there; clouds only"),
+                        "Take tangent planes from the normals of FILE; clouds only (planes fitted to the neighbours)"),
+       command.add_flag(
+           "--denoise", build.denoise,
+           "Move noisy points onto the surface with --preset clean, too, and start from the moved points; clouds only"),
        command
            .add_option("--viewpoint", build.given_viewpoint,
-                       "Where the sensor stood, clouds only (the file's, or the origin of a depth image)")
+                       "Position of the sensor, clouds only (VIEWPOINT of FILE, or the origin for an organized cloud)")
            ->type_name("X,Y,Z")});
-  addNumber(command, "--threads", build.cloud.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
+  addNumber(command, "--threads", build.cloud.threads, 1, 1 << 16, "Maximum number of threads (one per processor)")
+      ->type_name("N");
   const CLI::Option* const mollify =
-      addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
-                "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (" +
-                    numberText(tufted::default_mollify) + ")")
+      addNumber(
+          command, "--mollify", build.mollify, 0.0, 1.0,
+          "Shortest allowed edge, as a fraction of the longest side of its smaller triangle; 0: flat stays flat (" +
+              numberText(tufted::default_mollify) + ")")
           ->type_name("D");
 
   tufted::PaperOptions& paper = build.cloud.paper;
   CLI::Option* const gluing =
-      addChoice(command, "--gluing", paper.gluing, gluings, "How the stars are glued, clouds only (star)");
+      addChoice(command, "--gluing", paper.gluing, gluings,
+                "Which faces are glued at an edge: those of one star, or all, as in the paper; clouds only (star)");
   CLI::Option* const delaunay =
-      addChoice(command, "--delaunay", paper.delaunay, backends, "Who finds the stars, clouds only (star)");
+      addChoice(command, "--delaunay", paper.delaunay, backends,
+                "Code that computes the stars: CGAL or Tufted itself (star), with the same result; clouds only (star)");
   CLI::Option* const order =
-      addChoice(command, "--order", paper.order, orders, "Order of the faces around an edge (angle)");
-  CLI::Option* const seed = addNumber(command, "--seed", paper.seed, std::uint64_t(0),
-                                      std::numeric_limits<std::uint64_t>::max(), "Seed, only with --order random (0)")
-                                ->type_name("S");
+      addChoice(command, "--order", paper.order, orders,
+                "Order of the faces around an edge: ascending dihedral angle or area, or random (angle)");
+  CLI::Option* const seed =
+      addNumber(command, "--seed", paper.seed, std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(),
+                "Seed of the random order, only with --order random (0)")
+          ->type_name("S");
   for (CLI::Option* const option : {gluing, delaunay, order, seed}) option->group("For comparison with the paper");
   build.seed = seed;
   build.cloud_only.insert(build.cloud_only.end(), {gluing, delaunay});

@@ -49,11 +49,13 @@ std::vector<int> chosenOf(const ComponentOptions& options, const std::vector<std
 
 void addComponentOptions(CLI::App& command, ComponentOptions& options) {
   CLI::Option* const chosen =
-      command.add_option("--component", options.chosen, "Only these connected components, 0 has the most points (all)")
+      command
+          .add_option("--component", options.chosen,
+                      "Use only these connected components; component 0 has the most points (all)")
           ->check(notEmpty)
           ->type_name("largest|I,J,...");
   addNumber(command, "--min-component", options.min_points, 1, std::numeric_limits<int>::max(),
-            "Only connected components of at least so many points (1)")
+            "Use only connected components of at least N points (1)")
       ->excludes(chosen)
       ->type_name("N");
 }

@@ -8,14 +8,14 @@
 #include "tufted/errors.h"
 
 void addConsole(CLI::App& command, Console& console) {
-  command.option_defaults()->group("What is said");
-  CLI::Option* const quiet = command.add_flag("-q,--quiet", console.quiet, "Say nothing but warnings and errors");
-  command.add_flag("--json", console.json, "Print one JSON object and no other lines")->excludes(quiet);
+  command.option_defaults()->group("Output on the console");
+  CLI::Option* const quiet = command.add_flag("-q,--quiet", console.quiet, "Print warnings and errors only");
+  command.add_flag("--json", console.json, "Print one JSON object instead of text")->excludes(quiet);
 }
 
 void addVerboseConsole(CLI::App& command, Console& console) {
   addConsole(command, console);
-  command.add_flag("-v,--verbose", console.verbose, "Say more: how systems were solved, and how well")
+  command.add_flag("-v,--verbose", console.verbose, "Also print how linear systems were solved, and how accurately")
       ->excludes(command.get_option("--quiet"))
       ->excludes(command.get_option("--json"));
 }

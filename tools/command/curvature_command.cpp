@@ -120,5 +120,6 @@ void addCurvature(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "curvature", description, footer, compute, check);
   addOrienting(*command, settings->orienting);
-  addChoice(*command, "--method", settings->options.method, methods, "How curvature is found (fit)");
+  addChoice(*command, "--method", settings->options.method, methods,
+            "fit: a quadratic surface at each point; laplacian: mean curvature only, less accurate (fit)");
 }

@@ -113,17 +113,21 @@ void addDeform(CLI::App& app, Run& run) {
   using namespace deform_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "deform", description, footer, compute, check);
-  command->add_option("--handles", settings->handles_file, "A text file of points and where they shall lie")
+  command
+      ->add_option("--handles", settings->handles_file,
+                   "Text file of points that move to X Y Z or stay, lines INDEX X Y Z or INDEX")
       ->check(notEmpty)
       ->required()
       ->type_name("TEXT");
-  addChoice(*command, "--method", settings->options.method, methods, "How the rest follows (rigid)");
+  addChoice(*command, "--method", settings->options.method, methods,
+            "rigid: hardly stretches the surface; linear: two solves, for small rotations (rigid)");
   addNumber(*command, "--smoothness", settings->options.smoothness, 0.0, 1e6,
-            "Of rigid: how much bending costs, as part of the area; 0: nothing (1e-3)")
+            "With --method rigid: cost of bending, as a fraction of the area; 0: none (1e-3)")
       ->type_name("S");
-  addNumber(*command, "--iterations", settings->options.max_iterations, 1, 1000000, "Of rigid: at most so many (500)")
+  addNumber(*command, "--iterations", settings->options.max_iterations, 1, 1000000,
+            "With --method rigid: maximum number of iterations (500)")
       ->type_name("N");
   addNumber(*command, "--tolerance", settings->options.tolerance, std::numeric_limits<double>::min(), 1.0,
-            "Of rigid: end where no point moves by more than this part of the longest way (1e-3)")
+            "With --method rigid: stop when no point moves more than T times the longest way of a handle (1e-3)")
       ->type_name("T");
 }

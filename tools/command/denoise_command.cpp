@@ -134,9 +134,11 @@ void addDenoise(CLI::App& app, Run& run) {
   addInput(command, settings->input);
   addOut(command, settings->out);
   addCopies(command, settings->copies);
-  addChoice(command, "--structure", settings->structure, image_structures,
-            "Whether the points are a depth image (automatic)");
-  addNumber(command, "--threads", settings->threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
+  addChoice(
+      command, "--structure", settings->structure, image_structures,
+      "Treat the cloud as a depth image, or not (automatic: if a pinhole camera saw it from the VIEWPOINT of FILE)");
+  addNumber(command, "--threads", settings->threads, 1, 1 << 16, "Maximum number of threads (one per processor)")
+      ->type_name("N");
   addLookOptions(command, settings->look);
   addConsole(command, settings->console);
   command.callback([&run, &command, settings] {

@@ -225,22 +225,30 @@ void addDistance(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "distance", description, footer, compute, check);
   settings->source.needs_cover = true;
-  addPointOptions(*command, settings->points, "Points of distance 0");
-  command->add_option("--face", settings->faces, "A point of distance 0 inside a triangle, meshes only")
+  addPointOptions(*command, settings->points, "Sources");
+  command
+      ->add_option(
+          "--face", settings->faces,
+          "Source in triangle FACE, counted from 0, with barycentric coordinates A,B,C; may be repeated; meshes only")
       ->allow_extra_args(false)
       ->type_name("FACE,A,B,C");
   addChoice(*command, "--method", settings->options.method, methods,
-            "marching: the more accurate one; heat: smooth where fronts meet (marching)");
+            "marching: more accurate; heat: smooth where fronts meet (marching)");
   addNumber(*command, "--split", settings->options.split, 0, 2,
-            "How often marching cuts each triangle into four (2 up to 5,000 points, else 1)")
+            "With --method marching: how often each triangle is divided into four (2 up to 5,000 points, else 1)")
       ->type_name("TIMES");
   addNumber(*command, "--within", settings->options.maximum, std::numeric_limits<double>::min(),
-            std::numeric_limits<double>::max(), "No farther than this, in the file's unit (no limit)")
+            std::numeric_limits<double>::max(),
+            "Longest distance that is computed, in the unit of FILE; beyond it infinite (no limit)")
       ->type_name("R");
-  CLI::Option* const labels =
-      command->add_flag("--labels", settings->labels, "Write which source is nearest, labels.npy");
-  command->add_flag("--matrix", settings->matrix, "A column of distances for each source")->excludes(labels);
-  addTimeStep(*command, settings->time_step, "Heat: time step in --time-unit; larger ones smooth (0.5)");
+  CLI::Option* const labels = command->add_flag(
+      "--labels", settings->labels, "Also write the number of the nearest source of each point, labels.npy");
+  command
+      ->add_flag("--matrix", settings->matrix,
+                 "Write a column of distances for each source, instead of those from the nearest")
+      ->excludes(labels);
+  addTimeStep(*command, settings->time_step,
+              "With --method heat: time step in units of --time-unit; larger values smooth more (0.5)");
   addChoice(*command, "--time-unit", settings->time_unit, units,
-            "Heat: squared mean edge; adapted: weighted by area, for uneven density (mean)");
+            "With --method heat: mean squared edge; adapted: weighted by area, for very uneven density (mean)");
 }

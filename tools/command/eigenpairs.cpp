@@ -35,7 +35,7 @@ CLI::Option* addCount(CLI::App& command, Eigenpairs& pairs, const std::string& o
 void addSpectrumFolder(CLI::App& command, Eigenpairs& pairs) {
   command
       .add_option("--spectrum", pairs.folder,
-                  "Take the eigenvectors that `tufted spectrum --out DIR` wrote for this Laplacian (all that it has)")
+                  "Use eigenvectors that `tufted spectrum --out DIR` wrote for the same L and M (all in DIR)")
       ->check(notEmpty)
       ->excludes(command.get_option("--solver"))
       ->excludes(command.get_option("--memory-limit"))

@@ -63,8 +63,9 @@ Results compute(Settings& settings, Operator& source) {
 void addEmbed(CLI::App& app, Run& run) {
   using namespace embed_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "embed", description, footer, compute, check);
-  addCount(*command, settings->pairs, "--dimension", 1, "Number of coordinates (3, or all)")->type_name("D");
+  addCount(*command, settings->pairs, "--dimension", 1, "Number of coordinates of each point (3, or all if fewer)")
+      ->type_name("D");
   addSpectrumFolder(*command, settings->pairs);
   addChoice(*command, "--distance", settings->embedding, kinds_of_distance,
-            "What embedded distances approximate (commute)");
+            "Distance that Euclidean distances between embedded points approximate (commute)");
 }

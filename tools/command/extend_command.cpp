@@ -72,5 +72,6 @@ void addExtend(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "extend", description, footer, compute, check);
   addPinOptions(*command, settings->pins);
-  addTimeStep(*command, settings->time_step, "Time step in squared mean edges; larger ones mix more (4)");
+  addTimeStep(*command, settings->time_step,
+              "Time step in mean squared edges; larger values widen the transitions (4)");
 }

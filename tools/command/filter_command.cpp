@@ -147,13 +147,15 @@ void addFilter(CLI::App& app, Run& run) {
   using namespace filter_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "filter", description, footer, compute, check);
-  addSignalOptions(*command, settings->signals, "What to filter");
+  addSignalOptions(*command, settings->signals, "Values to filter");
   command->add_flag("--positions", settings->positions, "Filter the positions of the points");
-  CLI::Option* const count = addCount(*command, settings->pairs, "--count", 1,
-                                      "Number of eigenvectors, those of eigenvalue 0 not counted (100, or all)");
+  CLI::Option* const count =
+      addCount(*command, settings->pairs, "--count", 1,
+               "Number of eigenvectors to keep beside the means of the components (100, or all if fewer)");
   addSpectrumFolder(*command, settings->pairs);
   addNumber(*command, "--wavelength", settings->wavelength, std::numeric_limits<double>::min(),
-            std::numeric_limits<double>::max(), "Keep waves that are at least so long")
+            std::numeric_limits<double>::max(),
+            "Keep all waves of at least this length, in the unit of the points, instead of K")
       ->excludes(count)
       ->type_name("W");
 }

@@ -56,5 +56,5 @@ Results compute(Settings& settings, Operator& source) {
 void addGreen(CLI::App& app, Run& run) {
   using namespace green_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "green", description, footer, compute, check);
-  addPointOptions(*command, settings->points, "Points, a column for each");
+  addPointOptions(*command, settings->points, "Points of the Green's functions, a column for each");
 }

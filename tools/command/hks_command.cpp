@@ -123,18 +123,20 @@ Results compute(Settings& settings, Operator& source) {
 void addHks(CLI::App& app, Run& run) {
   using namespace hks_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "hks", description, footer, compute, check);
-  addCount(*command, settings->pairs, "--count", 2, "Number of positive eigenvalues (100, or all)");
+  addCount(*command, settings->pairs, "--count", 2, "Number of positive eigenvalues to use (100, or all if fewer)");
   addSpectrumFolder(*command, settings->pairs);
-  CLI::Option* const samples =
-      addNumber(*command, "--samples", settings->samples, 2, 1 << 16, "Times (16), or energies with --wave (100)")
-          ->type_name("S");
-  CLI::Option* const wave = command->add_flag("--wave", settings->wave, "Wave kernel signatures");
+  CLI::Option* const samples = addNumber(*command, "--samples", settings->samples, 2, 1 << 16,
+                                         "Number of times (16), or with --wave of energies (100)")
+                                   ->type_name("S");
+  CLI::Option* const wave =
+      command->add_flag("--wave", settings->wave, "Compute wave kernel signatures instead of heat kernel signatures");
   std::vector<double>& times = settings->times;
   const auto set = [&times](const std::vector<std::string>& words) {
     times.clear();
     for (const std::string& word : words) times.push_back(parseTime(word).value());
   };
-  addList(*command, "--times", "The times, separated by commas, in squares of the points' unit of length", isTime, set)
+  addList(*command, "--times",
+          "Times, separated by commas, in squared units of the points (chosen from the eigenvalues)", isTime, set)
       ->excludes(samples)
       ->excludes(wave)
       ->type_name("LIST");

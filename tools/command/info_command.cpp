@@ -273,9 +273,9 @@ void addInfo(CLI::App& app, Run& run) {
   addInput(command, settings->input);
   addWeld(command, settings->input);
   settings->neighbors = addNumber(command, "--neighbors", settings->cloud.neighbors, 3, std::numeric_limits<int>::max(),
-                                  "Neighbours per point (30)")
+                                  "Number of neighbours per point, clouds only (30)")
                             ->type_name("K");
-  addNumber(command, "--threads", settings->cloud.threads, 1, 1 << 16, "At most this many threads (all)")
+  addNumber(command, "--threads", settings->cloud.threads, 1, 1 << 16, "Maximum number of threads (one per processor)")
       ->type_name("N");
   addConsole(command, settings->console);
   command.callback([&run, settings] { run = [=] { return runInfo(*settings); }; });

@@ -12,17 +12,18 @@
 CLI::Option* addInput(CLI::App& command, Input& input) {
   CLI::Option* const file =
       command
-          .add_option("FILE", input.file,
-                      "Points or mesh; - reads standard input; the format of that and of pipes is told by the content")
+          .add_option(
+              "FILE", input.file,
+              "Point cloud or mesh, - for standard input; the extension, or else the content, decides the format")
           ->required()
           ->check(notEmpty);
-  addChoice(command, "--as", input.as, kinds, "Take a file that may be either as one of them");
+  addChoice(command, "--as", input.as, kinds, "Read FILE as a point cloud or as a mesh (a mesh if FILE has faces)");
   return file;
 }
 
 void addWeld(CLI::App& command, Input& input) {
   command.add_flag("--weld", input.weld,
-                   "Join the vertices of a mesh that coincide; all keep their index and row; meshes only");
+                   "Join coincident vertices, each of which keeps its index and row; meshes only");
 }
 
 namespace {

@@ -71,5 +71,6 @@ void addInterpolate(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "interpolate", description, footer, compute, check);
   addPinOptions(*command, settings->pins);
-  addChoice(*command, "--method", settings->method, methods, "Which function, see below (harmonic)");
+  addChoice(*command, "--method", settings->method, methods,
+            "harmonic: stays within the values of the pins; biharmonic: smooth at the pins (harmonic)");
 }

@@ -124,9 +124,10 @@ const std::map<std::string, tufted::Sign> signs = {{"psd", tufted::Sign::psd}, {
 /// Adds the options that say what is written, and how.
 void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
   addFormats(command, options.formats, formats,
-             "What to write, separated by commas: npz, mtx, mat, spmat, ply, pcd, cover, triangles, or none (npz,ply)");
-  addChoice(command, "--sign", options.sign, signs, "Sign of L in the files, see below (psd)");
-  command.add_flag("--dummy", options.dummy, "Dummy values for points that cannot take part, see below");
+             "Formats, separated by commas: npz, mtx, mat, spmat, ply, pcd, cover, triangles, or none (npz,ply)");
+  addChoice(command, "--sign", options.sign, signs,
+            "Sign of L in the files: positive semidefinite (psd) or negative semidefinite as in libigl (psd)");
+  command.add_flag("--dummy", options.dummy, "Give points that take no part a nonzero diagonal in L and M, see below");
 }
 
 /// The number of points, and of those that take no part.
@@ -222,7 +223,7 @@ void addLaplacian(CLI::App& app, Run& run) {
   addWriteOptions(command, settings->write);
   command.option_defaults()->group("Building the Laplacian");
   addBuildOptions(command, settings->build);
-  command.option_defaults()->group("Looking at the result");
+  command.option_defaults()->group("Picture and page of the result");
   addLookOptions(command, settings->look);
   addVerboseConsole(command, settings->console);
   command.callback([&run, &command, settings] {

@@ -84,6 +84,8 @@ void addLogmap(CLI::App& app, Run& run) {
       addOperatorCommand<Settings>(app, run, "logmap", description, footer, compute, check);
   settings->source.needs_cover = true;
   addOrienting(*command, settings->orienting);
-  addPointOptions(*command, settings->points, "The point in the centre");
-  command->add_option("--axis", settings->axis_text, "Direction of the first coordinate")->type_name("X,Y,Z");
+  addPointOptions(*command, settings->points, "Source, the centre of the map");
+  command
+      ->add_option("--axis", settings->axis_text, "Direction of the first coordinate axis at the source (any tangent)")
+      ->type_name("X,Y,Z");
 }

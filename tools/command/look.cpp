@@ -162,38 +162,39 @@ tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
 }  // namespace
 
 void addPictureOptions(CLI::App& command, Look& look) {
-  command.add_option("--png", look.png, "A picture of the result")->check(notEmpty)->type_name("FILE.png");
-  command.add_option("--color", look.color, "The field that is shown, see below, or none (the first)")
+  command.add_option("--png", look.png, "Write a picture")->check(notEmpty)->type_name("FILE.png");
+  command
+      .add_option("--color", look.color,
+                  "Field that is shown as colours, or none for the shape alone (the first field)")
       ->check(notEmpty)
       ->type_name("FIELD");
   addNumber(command, "--column", look.column, 0, std::numeric_limits<int>::max(),
-            "Its column, counted from 0 (the first that is not constant)")
+            "Column of the field that is shown, counted from 0 (the first that is not constant)")
       ->type_name("K");
   const auto set_map = [&look](const std::string& name) { look.picture.color_map = name; };
   command
       .add_option_function<std::string>("--colormap", set_map,
-                                        "Its colours: viridis, cividis, magma, coolwarm, purple_green or labels "
-                                        "(by what its values mean)")
+                                        "Colours: viridis, cividis, magma, coolwarm, purple_green or labels "
+                                        "(chosen by the meaning of the values)")
       ->check(checkMap)
       ->type_name("NAME");
   const auto set_camera = [&look](const std::string& text) { setCamera(text, look.picture.camera); };
   command
       .add_option_function<std::string>("--camera", set_camera,
-                                        "From where, in degrees around and above, and how near (chosen)")
+                                        "Direction to the camera, in degrees around the up axis and above the horizon, "
+                                        "and zoom factor (automatic, 1)")
       ->type_name("AZIMUTH,ELEVATION[,ZOOM]");
   addChoice(command, "--up", look.picture.camera.up, axes,
-            "The axis that is up, in pictures (chosen) and for the normals of open sheets");
+            "Axis that points up in pictures, and towards which the normals of open sheets point (automatic)");
   const auto set_size = [&look](const std::string& text) { parseSize(text, look.picture.width, look.picture.height); };
-  command.add_option_function<std::string>("--size", set_size, "Size of the picture (1200x900)")
+  command.add_option_function<std::string>("--size", set_size, "Size of the picture in pixels (1200x900)")
       ->check(checkSize)
       ->type_name("WIDTHxHEIGHT");
   addChoice(command, "--background", look.picture.background, backgrounds, "Background of the picture (white)");
 }
 
 void addLookOptions(CLI::App& command, Look& look) {
-  command.add_option("--view", look.page, "A page for a browser that shows the result")
-      ->check(notEmpty)
-      ->type_name("FILE.html");
+  command.add_option("--view", look.page, "Write a page for a browser")->check(notEmpty)->type_name("FILE.html");
   addPictureOptions(command, look);
 }
 

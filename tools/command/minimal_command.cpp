@@ -86,12 +86,15 @@ void addMinimal(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "minimal", description, footer, compute, check);
   settings->source.needs_cover = true;
-  command->add_option("--fixed", settings->fixed, "A text file of points that stay, an INDEX per line")
+  command
+      ->add_option("--fixed", settings->fixed,
+                   "Text file of points that stay, an INDEX per line (the points of the rim)")
       ->check(notEmpty)
       ->type_name("TEXT");
-  addNumber(*command, "--iterations", settings->options.max_iterations, 1, 1000000, "At most so many systems (300)")
+  addNumber(*command, "--iterations", settings->options.max_iterations, 1, 1000000,
+            "Maximum number of iterations (300)")
       ->type_name("N");
   addNumber(*command, "--tolerance", settings->options.tolerance, std::numeric_limits<double>::min(), 1.0,
-            "End where no point moves off the surface by more than this part of its extent (1e-4)")
+            "Stop when no point moves off the surface by more than T times the extent of the surface (1e-4)")
       ->type_name("T");
 }

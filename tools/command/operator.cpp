@@ -38,15 +38,17 @@ std::optional<std::size_t> parseBytes(const std::string& text) {
 }
 
 void addSolvingOptions(CLI::App& command, Solving& solving) {
-  addChoice(command, "--solver", solving.method, methods,
-            "How systems are solved; SolverMethod in messages (automatic: by a factor where it fits)");
+  addChoice(
+      command, "--solver", solving.method, methods,
+      "How linear systems are solved; SolverMethod in messages (automatic: cholesky if its factor fits into memory)");
   const auto set = [&solving](const std::string& text) { solving.memory_limit = parseBytes(text).value(); };
   const auto check = [](const std::string& text) {
     return parseBytes(text) ? std::string() : text + " is no size such as 500MB or 2GiB";
   };
   command
       .add_option_function<std::string>(
-          "--memory-limit", set, "For factors, as 500MB or 2GiB; memory_limit in messages (half of what is available)")
+          "--memory-limit", set,
+          "Memory for Cholesky factors, such as 500MB or 2GiB; memory_limit in messages (half of the available memory)")
       ->check(check)
       ->type_name("SIZE");
 }
@@ -128,17 +130,17 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   CLI::Option* const folder =
       command
           .add_option("--operator", settings.folder,
-                      "Take the Laplacian that `tufted laplacian --out DIR` wrote, instead of building FILE's")
+                      "Read L and M that `tufted laplacian --out DIR` wrote, instead of building them from FILE")
           ->check(notEmpty)
           ->type_name("DIR");
   addOut(command, settings.out);
   addCopies(command, settings.copies);
   command.option_defaults()->group("Building the Laplacian");
   addBuildOptions(command, settings.build);
-  command.option_defaults()->group("Solving");
+  command.option_defaults()->group("Linear systems and connected components");
   addSolvingOptions(command, settings.solving);
   addComponentOptions(command, settings.components);
-  command.option_defaults()->group("Looking at the result");
+  command.option_defaults()->group("Picture and page of the result");
   addLookOptions(command, settings.look);
   addVerboseConsole(command, settings.console);
   command.option_defaults()->group("Options");  // the group of the subcommand's own options, listed first

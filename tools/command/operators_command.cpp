@@ -94,12 +94,13 @@ void addOperators(CLI::App& app, Run& run) {
   using namespace operators_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "operators", description, footer, compute, check);
-  addCount(*command, settings->pairs, "--count", 1, "Number of eigenvalues, those that are 0 among them (128, or all)");
+  addCount(*command, settings->pairs, "--count", 1, "Number of eigenvalues, including zeros (128, or all if fewer)");
   addSpectrumFolder(*command, settings->pairs);
   addNumber(*command, "--gradient-neighbors", settings->gradients.neighbors, 0, 10'000,
-            "Neighbors in the fits of gradients, 0 for those in L (30 for clouds, 0 for meshes)")
+            "Number of neighbours in each fit of a gradient; 0: the neighbours in L (30 for clouds, 0 for meshes)")
       ->type_name("N");
   addNumber(*command, "--gradient-regularization", settings->gradients.regularization, 0.0,
-            std::numeric_limits<double>::max(), "Length^2 added to the fits, which DiffusionNet does with 1e-5 (0)")
+            std::numeric_limits<double>::max(),
+            "Regularization of the fits, in squared units of length; DiffusionNet uses 1e-5 (0)")
       ->type_name("A");
 }

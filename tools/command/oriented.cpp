@@ -17,7 +17,7 @@ namespace {
 
 void addOrienting(CLI::App& command, Orienting& orienting) {
   command.add_flag("--consistent", orienting.consistent,
-                   "Normals as their neighbours' and outwards, even where the sensor's position is known");
+                   "Let normals of neighbours agree and point outwards, even if the position of the sensor is known");
 }
 
 void checkFrames(const Operator& source) {

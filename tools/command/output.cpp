@@ -7,7 +7,7 @@
 #include "tufted/io/write.h"
 
 void addOut(CLI::App& command, std::filesystem::path& out) {
-  command.add_option("-o,--out", out, "Directory for the results, made if missing")
+  command.add_option("-o,--out", out, "Folder for the results, created if missing")
       ->required()
       ->check(notEmpty)
       ->type_name("DIR");
@@ -36,7 +36,7 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
 
 void addCopies(CLI::App& command, std::vector<tufted::Format>& target) {
   addFormats(command, target, {{"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}},
-             "Copies of the points with the results, separated by commas: ply, pcd, or none (ply)");
+             "Formats of the copy of the points with the results, separated by commas: ply, pcd, or none (ply)");
 }
 
 void checkOutput(const std::vector<NamedInput>& inputs, const std::filesystem::path& out,

@@ -134,9 +134,13 @@ void addParameterize(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "parameterize", description, footer, compute, check);
   settings->source.needs_cover = true;
-  addChoice(*command, "--method", settings->options.method, methods, "How the surface is laid out (conformal)");
-  addChoice(*command, "--weights", settings->options.weights, weights, "Of harmonic maps (laplacian)");
-  command->add_option("--rim", settings->rim, "Of harmonic maps: a text file of the rim's points, INDEX or INDEX U V")
+  addChoice(*command, "--method", settings->options.method, methods,
+            "conformal: keeps angles, free rim; harmonic: rim on a circle or as in --rim (conformal)");
+  addChoice(*command, "--weights", settings->options.weights, weights,
+            "With --method harmonic: weights of L, or mean-value weights, which flip no triangle (laplacian)");
+  command
+      ->add_option("--rim", settings->rim,
+                   "With --method harmonic: text file of the points of the rim in order, lines INDEX or INDEX U V")
       ->check(notEmpty)
       ->type_name("TEXT");
 }

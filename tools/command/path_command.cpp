@@ -69,8 +69,14 @@ void addPath(CLI::App& app, Run& run) {
   using namespace path_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "path", description, footer, compute, check);
   settings->source.needs_cover = true;
-  command->add_option("--from", settings->from, "Where it begins: a point by its index, or the nearest to a position")
+  command
+      ->add_option("--from", settings->from,
+                   "Start of the path: index of a point, or a position, which stands for the nearest point")
       ->required()
       ->type_name("I|X,Y,Z");
-  command->add_option("--to", settings->to, "Where it ends")->required()->type_name("I|X,Y,Z");
+  command
+      ->add_option("--to", settings->to,
+                   "End of the path: index of a point, or a position, which stands for the nearest point")
+      ->required()
+      ->type_name("I|X,Y,Z");
 }

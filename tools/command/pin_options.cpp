@@ -35,13 +35,18 @@ void readPins(const std::filesystem::path& path, std::ptrdiff_t columns, std::ve
 }  // namespace
 
 void addPinOptions(CLI::App& command, PinOptions& options) {
-  command.add_option("--pin", options.pins, "A point and its value, may be repeated")
+  command
+      .add_option(
+          "--pin", options.pins,
+          "Pin: the value (V1,V2,... for several) at a point, or at the point nearest to a position; may be repeated")
       ->allow_extra_args(false)
       ->type_name("INDEX=V|X,Y,Z=V");
-  command.add_option("--pins", options.by_index, "A text file of pins, INDEX V1 V2 ... per line")
+  command.add_option("--pins", options.by_index, "Text file of pins, lines INDEX V1 V2 ...")
       ->check(notEmpty)
       ->type_name("TEXT");
-  command.add_option("--pins-near", options.by_position, "A text file of pins, X Y Z V1 V2 ... per line")
+  command
+      .add_option("--pins-near", options.by_position,
+                  "Text file of pins at the points nearest to positions, lines X Y Z V1 V2 ...")
       ->check(notEmpty)
       ->type_name("TEXT");
 }

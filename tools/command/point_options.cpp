@@ -148,13 +148,13 @@ std::vector<Place> NamedPoints::places(int points) const {
 }
 
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what) {
-  command.add_option("--source", points.indices, what + ", by index from 0")
+  command.add_option("--source", points.indices, what + ": indices, counted from 0")
       ->allow_extra_args(false)  // the next word may be FILE
       ->type_name("I,J,...");
-  command.add_option("--near", points.positions, what + ", as the point nearest to this")
+  command.add_option("--near", points.positions, what + ": the point nearest to this position; may be repeated")
       ->allow_extra_args(false)
       ->type_name("X,Y,Z");
-  command.add_option("--sources", points.file, what + ", from a text file with an index or X Y Z per line")
+  command.add_option("--sources", points.file, what + ": text file of lines INDEX or X Y Z")
       ->check(notEmpty)
       ->type_name("TEXT");
 }

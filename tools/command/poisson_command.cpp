@@ -84,6 +84,6 @@ void addPoisson(CLI::App& app, Run& run) {
   using namespace poisson_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "poisson", description, footer, compute, check);
-  addSignalOptions(*command, settings->signals, "f");
+  addSignalOptions(*command, settings->signals, "Right-hand side f");
   addPinOptions(*command, settings->pins);
 }

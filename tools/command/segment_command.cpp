@@ -98,11 +98,14 @@ void addSegment(CLI::App& app, Run& run) {
       addOperatorCommand<Settings>(app, run, "segment", description, footer, compute, check);
   settings->source.needs_cover = true;
   CLI::Option* const count = addNumber(*command, "--count", settings->options.count, 1, std::numeric_limits<int>::max(),
-                                       "Number of segments (8, or as many as there can be)")
+                                       "Number of segments (8, or as many as possible if fewer)")
                                  ->type_name("K");
-  command->add_option("--seeds", settings->seeds, "Points whose cells are the segments")
+  command
+      ->add_option("--seeds", settings->seeds,
+                   "Indices of the points whose cells are the segments, counted from 0 (K points far apart)")
       ->check(notEmpty)
       ->excludes(count)
       ->type_name("I,J,...");
-  addChoice(*command, "--method", settings->options.method, methods, "How the surface is cut (voronoi)");
+  addChoice(*command, "--method", settings->options.method, methods,
+            "voronoi: cells around seeds; spectral: parts that narrow necks join (voronoi)");
 }

@@ -69,8 +69,8 @@ std::vector<MatrixXd> columnsOf(const std::string& name, const tufted::Geometry&
 void addSignalOptions(CLI::App& command, SignalOptions& options, const std::string& what) {
   const auto any = [](const std::string&) { return std::string(); };  // the file is not read yet
   const auto set = [&options](const std::vector<std::string>& names) { options.fields = names; };
-  addList(command, "--field", what + ": fields of the points, separated by commas", any, set)->type_name("NAME,...");
-  command.add_option("--values", options.values, what + ": a .npy file of N values or N x c")
+  addList(command, "--field", what + ": fields of the file, separated by commas", any, set)->type_name("NAME,...");
+  command.add_option("--values", options.values, what + ": .npy file of N values, or N x c for c columns")
       ->check(notEmpty)
       ->type_name("NPY");
 }

@@ -85,9 +85,9 @@ void addSignedDistance(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "signed-distance", description, footer, compute, check);
   addOrienting(*command, settings->orienting);
-  command->add_option("--curve", settings->file, "A text file of the points along the curve, an INDEX per line")
+  command->add_option("--curve", settings->file, "Text file of the points along the curve in order, an INDEX per line")
       ->check(notEmpty)
       ->required()
       ->type_name("TEXT");
-  addTimeStep(*command, settings->time_step, "Time step in squared mean edges; larger ones mix more (4)");
+  addTimeStep(*command, settings->time_step, "Time step in mean squared edges; larger values bridge wider gaps (4)");
 }

@@ -121,20 +121,23 @@ void addSmooth(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "smooth", description, footer, compute, check);
   constexpr double least = std::numeric_limits<double>::min(), most = 1e10;
-  addChoice(*command, "--method", settings->method, methods, "How points are smoothed (implicit)");
+  addChoice(*command, "--method", settings->method, methods,
+            "implicit: heat equation, shrinks the shape; taubin: hardly shrinks it (implicit)");
   addNumber(*command, "--time-step", settings->time_step, least, most,
-            "Of implicit steps, in mean squared lengths of edges (1)")
+            "With --method implicit: time step in mean squared edges of each component; larger values smooth more (1)")
       ->type_name("T");
-  addNumber(*command, "--lambda", settings->lambda, least, 1.0, "Of taubin: part of the way to the mean (0.5)")
+  addNumber(*command, "--lambda", settings->lambda, least, 1.0,
+            "With --method taubin: fraction of the way to the mean of the neighbours (0.5)")
       ->type_name("L");
-  addNumber(*command, "--mu", settings->mu, -1.0, 0.0, "Of taubin: part of the way back, negative (-0.53)")
+  addNumber(*command, "--mu", settings->mu, -1.0, 0.0,
+            "With --method taubin: fraction of the way in the step back, negative (-0.53)")
       ->type_name("MU");
   addNumber(*command, "--iterations", settings->iterations, 1, 1000000, "Number of steps (1)")->type_name("N");
   command->add_flag_callback(
       "--keep-volume", [settings = settings.get()] { settings->keep_volume = settings->source.needs_cover = true; },
-      "Keep the volume of each component; all must be closed");
-  command->add_option("--fixed", settings->fixed_file, "A text file of points that stay, an INDEX per line")
+      "Scale each component to its former volume; all components must be closed");
+  command->add_option("--fixed", settings->fixed_file, "Text file of points that stay, an INDEX per line (none)")
       ->check(notEmpty)
       ->type_name("TEXT");
-  addSignalOptions(*command, settings->signals, "What to smooth in place of the positions");
+  addSignalOptions(*command, settings->signals, "Values to smooth instead of the positions");
 }

@@ -67,8 +67,9 @@ void addSpectrum(CLI::App& app, Run& run) {
   using namespace spectrum_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute, check);
-  addCount(*command, settings->pairs, "--count", 1, "Number of positive eigenvalues (32, or all)");
-  command->add_flag("--with-null-space", settings->with_null_space, "Write the eigenvalues 0 as well, first");
-  addNumber(*command, "--tolerance", settings->tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
+  addCount(*command, settings->pairs, "--count", 1, "Number of positive eigenvalues (32, or all if fewer)");
+  command->add_flag("--with-null-space", settings->with_null_space,
+                    "Also write the eigenvalues 0 and their eigenvectors, before the others");
+  addNumber(*command, "--tolerance", settings->tolerance, 1e-15, 0.5, "Relative accuracy of eigenvectors (1e-10)")
       ->type_name("T");
 }

@@ -86,9 +86,9 @@ void addTransport(CLI::App& app, Run& run) {
   using namespace transport_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "transport", description, footer, compute, check);
-  addPointOptions(*command, settings->points, "Points whose vectors are given");
-  command->add_option("--vector", settings->texts, "The vector of a source; repeat for several")
+  addPointOptions(*command, settings->points, "Sources");
+  command->add_option("--vector", settings->texts, "Vector at a source; repeated for each source, see below")
       ->allow_extra_args(false)
       ->type_name("X,Y,Z");
-  addTimeStep(*command, settings->time_step, "Time step in squared mean edges; larger ones mix more (4)");
+  addTimeStep(*command, settings->time_step, "Time step in mean squared edges; larger values smooth more (4)");
 }

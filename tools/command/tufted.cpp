@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding a file size limit is then an error of write(), not a crash
   catchInterrupt();
   CLI::App app("A Laplacian for point clouds and triangle meshes of any connectivity.", "tufted");
-  app.set_version_flag("-V,--version", versionText(), "Print version, licence and what is built in, and exit");
+  app.set_version_flag("-V,--version", versionText(), "Print the version, licence and built-in libraries, and exit");
   app.require_subcommand(1);
   app.footer(examples);
   Run run;

@@ -257,21 +257,29 @@ void addValidate(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(name, description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
-  CLI::Option* const paths = command.add_option("PATH", settings->paths, "Files and folders")
+  CLI::Option* const paths = command
+                                 .add_option("PATH", settings->paths,
+                                             "Files, and folders, which are searched for files with a known extension")
                                  ->check(notEmpty)
                                  ->transform(CLI::Validator(withoutProtection, ""));
-  command.add_option("--operator", settings->operators, "A Laplacian that `tufted laplacian --out DIR` wrote")
+  command
+      .add_option("--operator", settings->operators,
+                  "Check L and M that `tufted laplacian --out DIR` wrote; may be repeated")
       ->allow_extra_args(false)  // the next word may be PATH
       ->check(notEmpty)
       ->transform(CLI::Validator(withoutProtection, ""))
       ->type_name("DIR");
-  addNumber(command, "--jobs", settings->jobs, 1, 1024, "At most this many files at once (processors)")->type_name("N");
-  addNumber(command, "--time", settings->seconds, 0.0, most_seconds, "Limit per file in seconds, 0 for none (600)")
+  addNumber(command, "--jobs", settings->jobs, 1, 1024, "Maximum number of files checked at once (one per processor)")
+      ->type_name("N");
+  addNumber(command, "--time", settings->seconds, 0.0, most_seconds,
+            "Time limit per file in seconds; 0: no limit (600)")
       ->type_name("S");
   addNumber(command, "--memory", settings->memory, 1, std::numeric_limits<int>::max(),
-            "Limit per file in MB: what one thread allocates for it (none)")
+            "Memory limit per file in MB; each file is then built by one thread (no limit)")
       ->type_name("MB");
-  addChoice(command, "--as", settings->as, kinds, "Take files that may be either as one of them")->needs(paths);
+  addChoice(command, "--as", settings->as, kinds,
+            "Read each PATH as a point cloud or as a mesh (a mesh if the file has faces)")
+      ->needs(paths);
   command.add_flag("--one", settings->is_one)->group("");  // hidden in the help
   addConsole(command, settings->console);
   command.callback([&run, settings] {

@@ -205,9 +205,16 @@ void addView(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand("view", description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
-  command.add_option("WHAT", settings->what, "A folder of results, or points or a mesh")->required()->check(notEmpty);
-  command.add_option("--out,-o,--view", settings->look.page, "The page")->check(notEmpty)->type_name("FILE.html");
-  command.add_option("--field", settings->fields, "Show only these fields, in this order (all)")
+  command.add_option("WHAT", settings->what, "Folder of results, or a file of a point cloud or mesh")
+      ->required()
+      ->check(notEmpty);
+  command
+      .add_option("--out,-o,--view", settings->look.page,
+                  "Name of the page (without a picture view.html in the folder, or the name of the file with .html)")
+      ->check(notEmpty)
+      ->type_name("FILE.html");
+  command
+      .add_option("--field", settings->fields, "Show only this field; may be repeated, in the order of the page (all)")
       ->allow_extra_args(false)
       ->type_name("NAME");
   addPictureOptions(command, settings->look);

@@ -95,7 +95,8 @@ void addWeights(CLI::App& app, Run& run) {
   using namespace weights_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "weights", description, footer, compute, check);
-  command->add_option("--handles", settings->file, "A text file of the handles' points, INDEX or INDEX HANDLE")
+  command
+      ->add_option("--handles", settings->file, "Text file of the points of the handles, lines INDEX or INDEX HANDLE")
       ->check(notEmpty)
       ->required()
       ->type_name("TEXT");
