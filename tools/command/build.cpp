@@ -58,19 +58,18 @@ void addBuildOptions(CLI::App& command, Build& build) {
                         "Take tangent planes from the normals of FILE; clouds only (planes fitted to the neighbours)"),
        command.add_flag(
            "--denoise", build.denoise,
-           "Move noisy points onto the surface with --preset clean, too, and start from the moved points; clouds only"),
+           "Move noisy points onto the surface even with --preset clean, and start from the moved points; clouds only"),
        command
            .add_option("--viewpoint", build.given_viewpoint,
                        "Position of the sensor, clouds only (VIEWPOINT of FILE, or the origin for an organized cloud)")
            ->type_name("X,Y,Z")});
   addNumber(command, "--threads", build.cloud.threads, 1, 1 << 16, "Maximum number of threads (one per processor)")
       ->type_name("N");
-  const CLI::Option* const mollify =
-      addNumber(
-          command, "--mollify", build.mollify, 0.0, 1.0,
-          "Shortest allowed edge, as a fraction of the longest side of its smaller triangle; 0: flat stays flat (" +
-              numberText(tufted::default_mollify) + ")")
-          ->type_name("D");
+  const CLI::Option* const mollify = addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
+                                               "Shortest allowed edge, as a fraction of the longest side of its "
+                                               "smaller triangle; with 0 flat triangles stay (" +
+                                                   numberText(tufted::default_mollify) + ")")
+                                         ->type_name("D");
 
   tufted::PaperOptions& paper = build.cloud.paper;
   CLI::Option* const gluing =

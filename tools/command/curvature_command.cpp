@@ -14,27 +14,28 @@
 namespace curvature_command {
 namespace {
 
-constexpr const char* description = "Curvature: mean, Gaussian and principal, with their directions.";
+constexpr const char* description = "Compute mean, Gaussian and principal curvatures, and the principal directions.";
 
 constexpr const char* footer =
     R"(Example:
   tufted curvature scan.ply --out curvature
 
-At each point a quadric is fitted to the heights of its neighbours over its tangent plane, in a window as wide as the
-noise asks for. A curvature is positive where the surface bends away from the normal: that of a sphere of radius r, with
-normals that point outwards, is 1/r. Normals are those of `tufted normals`.
-  --method laplacian  mean curvature alone, from L x = 2 H n M. It does not converge on random points: on a torus the mean
-                      error stays 7 % of the greatest curvature, however many points there are.
+  fit        a quadratic surface is fitted to the neighbours of each point, in a window that grows with the noise
+  laplacian  mean curvature only, from L x = 2 H n M. It does not converge on random points: on a torus the mean
+             error stays at 7 % of the largest curvature, however many points there are.
+Curvature is positive where the surface bends away from the normal: a sphere of radius r whose normals point outwards
+has curvature 1/r. Normals are those of `tufted normals`.
 
-Writes into DIR, renamed one after the other when all are complete:
-  curvature.npy             N x 4, float64: mean H and k1 >= k2 in 1/length, Gaussian K in 1/length^2, in the order
-                            H, K, k1, k2; with --method laplacian N values, H; 0 at points that take no part
-  principal_directions.npy  N x 6: unit vectors of k1, then of k2; not with --method laplacian
+Files in DIR, which replace older ones when all are complete:
+  curvature.npy             N x 4, float64: mean H, Gaussian K, and principal k1 >= k2, in 1 / length (K in 1 /
+                            length^2); with --method laplacian N values of H; 0 at points that take no part
+  principal_directions.npy  N x 6: unit vectors in the directions of k1 and of k2; not with --method laplacian
   points.ply                the points with the fields curvature_0 to curvature_3, float32, and the normals; points.pcd
                             with --format pcd
-  report.json               method, orientation, points undetermined and left out as they take no part, rings of
-                            neighbours in the fits, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+  report.json               method, orientation, number of points without a fit and of points that take no part, rings
+                            of neighbours in the fits, seconds
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 const std::map<std::string, tufted::CurvatureMethod> methods = {{"fit", tufted::CurvatureMethod::fit},
                                                                 {"laplacian", tufted::CurvatureMethod::laplacian}};

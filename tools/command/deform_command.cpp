@@ -17,23 +17,25 @@
 namespace deform_command {
 namespace {
 
-constexpr const char* description = "Move some points to given places and let the surface follow.";
+constexpr const char* description = "Move some points to given positions and let the surface follow.";
 
 constexpr const char* footer =
     R"(Examples:
   tufted deform mesh.off --handles handles.txt --out bent
   tufted deform scan.ply --handles handles.txt --method linear --out bent
 
---handles is a text file of lines INDEX X Y Z, where a point shall lie, and INDEX, a point that stays.
-  rigid   neighbourhoods turn smoothly and hardly stretch; iterates (as rigid as possible)
-  linear  two linear solves that keep how the surface bends; for small turns
+--handles is a text file with lines INDEX X Y Z for a point that moves to this position, and INDEX for a point that
+stays. A handle should be a patch of several points, because a single point pulls a spike.
+  rigid   rotates neighbourhoods smoothly and hardly stretches them, by iterations (as rigid as possible)
+  linear  takes two linear solves that keep the bending of the surface, and suits small rotations
 
-Writes into DIR, renamed one after the other when all are complete:
-  positions.npy  N x 3, float64; points of components without a handle stay, coincident ones lie where their
+Files in DIR, which replace older ones when all are complete:
+  positions.npy  N x 3, float64; points of components without a handle stay, coincident points lie where their
                  representative does
-  points.ply     the points where they are now, without normals; points.pcd with --format pcd
-  report.json    method, handles, points that moved, iterations, whether they converged, stretch of edges, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+  points.ply     the moved points, without normals; points.pcd with --format pcd
+  report.json    method, handles, moved points, iterations, whether they converged, stretch of edges, seconds
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 using tufted::DeformationMethod;
 

@@ -30,20 +30,21 @@ constexpr const char* footer =
   tufted denoise scan.ply --out clean
   tufted denoise scan.ply --out clean --png noise.png
 
-There is no radius to choose: how wide a surface is fitted follows from the noise around each point and the bend of the
-surface. Exact points, outliers, and whatever cannot be told from the shape of the surface stay as they are, bit for bit.
-An organized cloud that a pinhole camera saw from the file's viewpoint is a depth image, as any is with --structure
-image: its points move along the camera's rays. How noise grows with the distance the image tells itself: with the square
-as in stereo and structured light, hardly as in time of flight, or between.
-Every build does the same by itself, unless the preset is clean; --denoise asks for it with that, too.
+There is no radius to choose: the size of the fitted neighbourhoods follows from the noise around each point and the
+curvature of the surface. Exact points, outliers, and noise that cannot be distinguished from shape stay bit for bit.
+An organized cloud that a pinhole camera saw from the VIEWPOINT of FILE is a depth image, and with --structure image
+every organized cloud is one. The points of a depth image move along the rays of its camera. How the noise grows with
+the distance follows from the image: quadratically for stereo and structured light, hardly for time of flight, or in
+between.
+All subcommands that build L and M move noisy points in the same way, with --preset clean only if --denoise is given.
 
-Writes into DIR, renamed one after the other when all are complete:
-  positions.npy  N x 3, float64, in the order of the file
-  noise.npy      N, float64: standard deviation of the noise around a point that moved, along the normal (of a depth
-                 image along the ray), in the file's unit; 0 at others
-  points.ply     the points where they are now, with the file's fields but for normals, and noise, float32; points.pcd
-                 with --format pcd
-  report.json    points moved, outliers, noise, mean and farthest way, seconds)";
+Files in DIR, which replace older ones when all are complete:
+  positions.npy  N x 3, float64, in the order of FILE
+  noise.npy      N, float64: standard deviation of the noise around each moved point, along the normal (for depth images
+                 along the ray), in the unit of FILE; 0 at other points
+  points.ply     the moved points with the fields of FILE, without normals, and noise, float32; points.pcd with
+                 --format pcd
+  report.json    number of moved points and of outliers, noise, mean and largest displacement, seconds)";
 
 /// The values of --structure here, without rings.
 const std::map<std::string, Structure> image_structures = {

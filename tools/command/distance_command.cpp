@@ -21,7 +21,7 @@
 namespace distance_command {
 namespace {
 
-constexpr const char* description = "Geodesic distance from the nearest of some points.";
+constexpr const char* description = "Compute the geodesic distance of every point from the nearest source.";
 
 constexpr const char* footer =
     R"(Examples:
@@ -30,25 +30,26 @@ constexpr const char* footer =
   tufted distance scan.ply --source 0,17,99 --labels --out cells
   tufted distance scan.ply --source 0,17,99 --matrix --out landmarks
 
-Distances are in the file's unit: 0 at sources, infinite where no path leads (other components,
-isolated points) and beyond --within. --near takes the point nearest to a position, says which, and warns where that is
-farther from it than from its neighbours. On meshes --face names a point inside a triangle by its barycentric
-coordinates.
+Distances are in the unit of FILE. They are 0 at sources, and infinite beyond --within and where no path leads: in other
+components and at isolated points. The summary names the point that --near found. If that point is farther from the
+position than from its own neighbours, a warning says so.
 
---method marching goes from triangle to triangle with the source unfolded into each. It needs no factor and is the more
-accurate one; each --split of the triangles lowers the error on meshes to 0.6 of what it was, for three to four times
-the time. --within by marching, without --labels, --matrix and --face and from up to 64 sources, prepares nothing but
-the surface around them. --method heat is smooth where fronts meet; --time-step, --time-unit, --solver and
---memory-limit belong to it.
+  marching  the front passes from triangle to triangle, with the source unfolded into the plane of each. This method is
+            more accurate and needs no factorisation. On meshes each --split lowers the error to 0.6 of its value and
+            takes three to four times as long. With --within, up to 64 sources, and without --labels, --matrix and
+            --face, only the surface around the sources is prepared.
+  heat      the distance is smooth where fronts meet. --time-step, --time-unit, --solver and --memory-limit apply to
+            this method only.
 
-Writes into DIR, renamed one after the other when all are complete:
+Files in DIR, which replace older ones when all are complete:
   distance.npy  N distances, float64; with --matrix N x K, a column for each source
-  labels.npy    with --labels: N numbers, int32: which source is nearest, from 0 in the order --source, --near,
-                --sources, --face; -1 where no source leads
+  labels.npy    with --labels: N numbers of the nearest source, int32, from 0 in the order --source, --near, --sources,
+                --face; -1 where no path leads
   points.ply    the points with the field distance, float32; points.pcd with --format pcd
-  report.json   sources, method, what the query did, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
---format npz,ply,cover: the method needs the cover's triangles.)";
+  report.json   sources, method, counts of the query, seconds
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --format npz,ply,cover --out DIR` wrote: distances
+need the triangles of the cover.)";
 
 /// Up to this many sources, distances within a radius are computed around each, without a solver for the whole surface.
 constexpr std::size_t few_sources = 64;

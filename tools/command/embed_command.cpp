@@ -11,24 +11,26 @@
 namespace embed_command {
 namespace {
 
-constexpr const char* description = "Spectral embedding: coordinates of every point by the smoothest eigenvectors.";
+constexpr const char* description =
+    "Compute a spectral embedding: coordinates of every point from the smoothest eigenvectors.";
 
 constexpr const char* footer =
     R"(Example:
   tufted embed scan.ply --dimension 3 --out embedding
 
-A coordinate for each of the D smallest positive eigenvalues, so that distances between embedded points are near
-  commute     commute times: eigenvectors over the roots of their eigenvalues (global point signature)
-  biharmonic  the biharmonic distance: eigenvectors over their eigenvalues, in the points' unit
-Constants of components are left out; a coordinate is 0 on components that its eigenvector does not live on.
+Each of the D smallest positive eigenvalues gives a coordinate, so that distances between embedded points approximate
+  commute     commute times: eigenvectors divided by the roots of their eigenvalues (global point signature)
+  biharmonic  the biharmonic distance: eigenvectors divided by their eigenvalues, in the unit of the points
+The constants on connected components are left out. A coordinate is 0 on components where its eigenvector is 0.
 
-Writes into DIR, renamed one after the other when all are complete:
-  embedding.npy  N x D, float64; 0 at points that take no part, coincident ones as their representative
-  evals.npy      the D eigenvalues, 1 / length^2
-  points.ply     the points with embedding_0, embedding_1, ... as fields of float32; points.pcd with --format pcd: a
+Files in DIR, which replace older ones when all are complete:
+  embedding.npy  N x D, float64; 0 at points that take no part, at coincident points as at their representative
+  evals.npy      the D eigenvalues, in 1 / length^2
+  points.ply     the points with the fields embedding_0, embedding_1, ..., float32; points.pcd with --format pcd: one
                  field embedding of D values
   report.json    method, iterations, residual, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 const std::map<std::string, tufted::Embedding> kinds_of_distance = {{"commute", tufted::Embedding::commute},
                                                                     {"biharmonic", tufted::Embedding::biharmonic}};

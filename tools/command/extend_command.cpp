@@ -13,21 +13,23 @@
 namespace extend_command {
 namespace {
 
-constexpr const char* description = "Carry values of some points to all: nearly those of the nearest.";
+constexpr const char* description = "Give every point approximately the value of the nearest pin.";
 
 constexpr const char* footer =
     R"(Example:
   tufted extend scan.ply --pin 0=20 --pin 17=25 --out values
 
-Pins are given as INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,... for several values at
-once, or in text files. Every other point has the mean of the pins' values, each weighted by the heat that comes from
-it: that of the nearest pin, but for a seam a few spacings wide. `tufted interpolate` blends smoothly instead.
+A pin is a point with a given value. --pin takes INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,...
+for several values at once; --pins and --pins-near take text files.
+Every other point receives the mean of the values of all pins, weighted by the heat that reaches it from each: the value
+of the nearest pin, except in a transition a few spacings wide. `tufted interpolate` blends over the whole surface.
 
-Writes into DIR, renamed one after the other when all are complete:
+Files in DIR, which replace older ones when all are complete:
   values.npy   N values or N x c, float64; NaN where no path leads
   points.ply   the points with the field values, float32; points.pcd with --format pcd
   report.json  pins, time step, rounds, residual, backward error, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;

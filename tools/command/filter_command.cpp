@@ -20,24 +20,26 @@
 namespace filter_command {
 namespace {
 
-constexpr const char* description = "Low-pass filter of fields of the points, of other values, or of the positions.";
+constexpr const char* description =
+    "Apply a low-pass filter to fields of the points, to other values, or to the positions.";
 
 constexpr const char* footer =
     R"(Example:
   tufted filter scan.ply --positions --count 100 --out filtered
 
-Keeps what the means over the connected components and the eigenvectors of the smallest positive eigenvalues
-hold: the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of
-length; a W that is longer than all of them, or shorter than the points can tell, is refused). With --denoise positions
-are those that it moves the points to, and not those of FILE; with --operator those of points.ply.
+The filter keeps the means over the connected components and the first K eigenvectors, or with --wavelength W the
+eigenvectors whose wavelength is at least W. The wavelength is 2 pi divided by the root of the eigenvalue, in the unit
+of the points. A W that is longer than all waves, or too short for the spacing of the points, is refused. With --denoise
+--positions filters the moved points, with --operator those of points.ply.
 
-Writes into DIR, renamed one after the other when all are complete:
-  filtered.npy  N values, N x c for c columns, or N x 3 positions, float64; points that are not finite or isolated keep
-                theirs, coincident ones have those of their representative
-  points.ply    the points with the field filtered, float32; points.pcd with --format pcd. With --positions they are
-                where the filter put them, and have no normals.
-  report.json   number of eigenvectors, the shortest wave, method, iterations, residual, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+Files in DIR, which replace older ones when all are complete:
+  filtered.npy  N values, N x c for c columns, or N x 3 positions, float64. Points that are not finite or isolated keep
+                their values; coincident points have the values of their representative.
+  points.ply    the points with the field filtered, float32; points.pcd with --format pcd. With --positions the points
+                are the filtered ones, without normals.
+  report.json   number of eigenvectors, the shortest wavelength, method, iterations, residual, seconds
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;

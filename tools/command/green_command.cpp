@@ -11,16 +11,17 @@
 namespace green_command {
 namespace {
 
-constexpr const char* description = "Green's function of points: L g = delta - M / area, with mean 0.";
+constexpr const char* description = "Compute Green's functions of points: L g = delta - M / area, with mean 0.";
 
 constexpr const char* footer = R"(Example:
   tufted green scan.ply --source 0 --out green
 
-Writes into DIR, renamed one after the other when all are complete:
-  green.npy    N values, or N x c for c points, float64; 0 in other components, NaN at points that take no part
+Files in DIR, which replace older ones when all are complete:
+  green.npy    N values, or N x c for c points, float64; 0 on other components, NaN at points that take no part
   points.ply   the points with the field green, float32; points.pcd with --format pcd
-  report.json  method, iterations, residual, backward error, seconds, and where parts are badly joined, which
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+  report.json  method, iterations, residual, backward error, seconds, and parts that are almost disconnected, if any
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;

@@ -20,26 +20,29 @@
 namespace hks_command {
 namespace {
 
-constexpr const char* description = "Heat kernel signatures, or wave kernel signatures with --wave, of every point.";
+constexpr const char* description =
+    "Compute heat kernel signatures of every point, or with --wave wave kernel signatures.";
 
 constexpr const char* footer =
     R"(Example:
   tufted hks scan.ply --out hks
 
-Of the K smallest positive eigenvalues, and the constants on connected components.
-Heat: sum of exp(-lambda_i t) phi_i(x)^2 at S times from 4 ln 10 / lambda_K to 4 ln 10 / lambda_1, or at those of
---times, neither so short that heat stays at its point nor so long that it is even. Wave: means of phi_i(x)^2 around S
-energies from log lambda_1 to log lambda_K. Both in 1 / length^2.
+The signatures, in 1 / length^2, are computed from the K smallest positive eigenvalues lambda_i with their eigenvectors
+phi_i, and from the constants on connected components.
+  heat  sum of exp(-lambda_i t) phi_i(x)^2 at S times t from 4 ln 10 / lambda_K to 4 ln 10 / lambda_1, or at --times. A
+        time is refused if heat has not left its point by then, or is already evenly distributed.
+  wave  weighted means of phi_i(x)^2 around S energies from log lambda_1 to log lambda_K
 
-Writes into DIR, renamed one after the other when all are complete:
-  hks.npy      N x S, float64 (wks.npy with --wave); 0 at points that take no part, coincident ones as their
+Files in DIR, which replace older ones when all are complete:
+  hks.npy      N x S, float64 (wks.npy with --wave); 0 at points that take no part, at coincident points as at their
                representative
-  times.npy    S times, length^2 (energies.npy with --wave)
-  evals.npy    K eigenvalues that they were made of
-  points.ply   the points with hks_0, hks_1, ... as fields of float32; points.pcd with --format pcd: a field hks of S
+  times.npy    S times in length^2 (energies.npy with --wave)
+  evals.npy    the K eigenvalues that were used
+  points.ply   the points with the fields hks_0, hks_1, ..., float32; points.pcd with --format pcd: one field hks of S
                values
   report.json  method, iterations, residual, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;

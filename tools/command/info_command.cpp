@@ -23,25 +23,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* description = "Say what a file holds, what is odd about it, and what building L and M will cost.";
+constexpr const char* description =
+    "Describe a file, list what is odd about it, and estimate the cost of building L and M.";
 
 constexpr const char* footer =
     R"(Examples:
   tufted info scan.ply
   tufted info scan.ply --json
 
-On clouds the nearest neighbours are found, nothing is built; meshes are built, which takes no longer. (So are clouds of
-one or two points, or all on lines: whether any of their points is active shows only then.)
+Nothing is written. Of a cloud only the nearest neighbours are found. A mesh is built, and so is a cloud of one or two
+points or with all points on lines, because only the build shows whether any of its points is active.
   spacing       median distance to the nearest neighbour (and its 5 % and 95 % quantiles)
-  float step    distance of neighbouring floats at the farthest coordinate; above a tenth of the spacing it is odd
-  on lines      points whose nearest neighbours lie on one line, as on the rings of a scanner
-  outliers      points whose nearest neighbour is more than five times as far as is usual around them
-  graph parts   of the graph that joins each point with its nearest neighbours. Triangles may join fewer or more: the
-                connected components are those of `tufted laplacian`; of meshes, which are built, they are shown
-  structure     of a depth image, which is built by its pixels where --neighbors names no number
-  to expect     time from that of the search (clouds) or the build (meshes) in this run, memory from 1 kB per point, of
-                depth images half of it
-  odd           what to know before trusting a result, one line each: not finite, coincident, outliers, ...)";
+  float step    distance between adjacent floats at the largest coordinate; odd above a tenth of the spacing
+  on lines      number of points whose nearest neighbours lie on one line, as on the rings of a scanner
+  outliers      number of points whose nearest neighbour is more than five times as far away as is usual around them
+  graph parts   clouds: parts of the graph that joins each point with its nearest neighbours. The connected components
+                of the triangles may be more or fewer; `tufted laplacian` finds them
+  components    meshes: connected components
+  structure     only for a depth image, which is built by its pixels unless --neighbors is given
+  to expect     time and memory of a build. The time is estimated from that of the search (clouds) or of the build
+                (meshes) in this run, the memory is 1 kB per point, or 0.5 kB per pixel or triangle
+  odd           what to know before trusting a result, one line each: points that are not finite, coincident, ...)";
 
 // Time of a build in units of the search for neighbours, and its peak memory per point in bytes, by tufted_bench.
 constexpr double build_over_search = 3.5;

@@ -11,23 +11,25 @@
 namespace interpolate_command {
 namespace {
 
-constexpr const char* description = "Carry values of some points over to all others.";
+constexpr const char* description =
+    "Interpolate values that are given at some points, blending over the whole surface.";
 
 constexpr const char* footer =
     R"(Example:
   tufted interpolate scan.ply --pin 0=20 --pin 17=25 --out values
 
-Pins are given as INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,... for several values at
-once, or in text files. Several at one place give their mean.
-  harmonic    L u = 0 elsewhere: within the range of the pins, with peaks at them
-  biharmonic  least bending: smooth at the pins, not bounded by them
+A pin is a point with a given value. --pin takes INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,...
+for several values at once; --pins and --pins-near take text files. Several pins at one point count as their mean.
+  harmonic    L u = 0 except at the pins: stays within the values of the pins and has peaks at them
+  biharmonic  bends least: smooth at the pins, but may exceed their values
 Points that no path joins to a pin are NaN.
 
-Writes into DIR, renamed one after the other when all are complete:
+Files in DIR, which replace older ones when all are complete:
   values.npy   N values or N x c, float64
   points.ply   the points with the field values, float32; points.pcd with --format pcd
-  report.json  method, iterations, residual, backward error, seconds, and where parts are badly joined, which
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+  report.json  method, iterations, residual, backward error, seconds, and parts that are almost disconnected, if any
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 enum class Method { harmonic, biharmonic };
 const std::map<std::string, Method> methods = {{"harmonic", Method::harmonic}, {"biharmonic", Method::biharmonic}};

@@ -31,7 +31,7 @@
 namespace laplacian_command {
 namespace {
 
-constexpr const char* description = "Build L and M for a point cloud or a mesh and write them into a directory.";
+constexpr const char* description = "Build L and M for a point cloud or a mesh and write them into a folder.";
 
 constexpr const char* footer = R"(Examples:
   tufted laplacian scan.ply --out laplacian
@@ -39,70 +39,68 @@ constexpr const char* footer = R"(Examples:
 
 Sign and scale:
   L is positive semidefinite: minus the Laplacian, integrated. libigl and PMP use the opposite sign.
-  M holds an area per point in length^2; their sum approximates the surface area.
+  M holds the area of each point in length^2; their sum approximates the surface area.
   Scale on clouds: 1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners).
   Scale on meshes: 1/2 (front and back of the cover).
-  Poisson L u = M f, eigenproblem L x = lambda M x.
-  Points that cannot take part keep their index, with zero row, column and mass; their status says why.
+  Poisson's equation is L u = M f, the eigenproblem L x = lambda M x.
+  Points that take no part keep their index, with zero row, column and mass; status.npy says why.
   --sign igl negates L: negative semidefinite, as in libigl and PMP; then -L u = M f and -L x = lambda M x.
-  --dummy gives those points 1 (-1 with --sign igl) on the diagonal of L and, in M, a thousandth of the smallest
-  positive mass.
+  --dummy gives points that take no part 1 on the diagonal of L (-1 with --sign igl) and a thousandth of the smallest
+  positive mass in M.
 
 Presets of clouds:
-  clean  exact samples: the paper's steps and no others
-  scan   depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets. Noisy points are moved onto the
-         surface first, stars agree on the diagonals of grids, and M is measured in a point's own star at rims.
-  lidar  the same from a spinning scanner, whose rings would be taken for sheets
+  clean  exact samples of a surface: only the steps of the paper
+  scan   depth images, laser scans, photogrammetry: withstands noise, depth jumps, outliers and nearby sheets. Noisy
+         points are first moved onto the surface, stars agree on the diagonals of grids, and at rims M is the area of a
+         point in its own star.
+  lidar  the same for spinning scanners, whose rings `scan` would take for separate sheets
 
-Structures of scans:
-  automatic  image for an organized cloud that a pinhole camera saw from the file's viewpoint, unless --neighbors or
-             --preset lidar is given; else none
-  none   the nearest points in space
-  image  the pixels around the point, none behind a depth jump; noise is smoothed along the rays of the camera, however
-         strong it is. The cloud must be organized (PCD, or PLY with obj_info num_cols)
-  rings  they lie on the rings beside the point, however far apart those are: by the field `ring`, or else by the
-         elevations seen from the file's viewpoint, which must show rings; and by the field `azimuth` in radians,
-         degrees or hundredths of degrees (the first whose turn, 6.28, 360 or 36000, holds all values), or else by the
-         directions seen from there
+Structures, from which the neighbours of a point are taken:
+  automatic  image for an organized cloud that a pinhole camera saw from the VIEWPOINT of FILE, unless --neighbors or
+             --preset lidar is given or the image is sparse; otherwise none
+  none       the nearest points in space
+  image      the pixels around the point, none behind a depth jump. Noise of any strength is smoothed along the rays of
+             the camera. The cloud must be organized (PCD, or PLY with obj_info num_cols).
+  rings      points on the rings beside the point, however far apart the rings are. The field `ring`, and the field
+             `azimuth` in radians, degrees or hundredths of a degree (the first unit whose full turn contains all
+             values), are read. If a field is missing, the directions from the VIEWPOINT of FILE replace it.
 
-Reads PCD, PLY, LAS, text in columns and NPY of N x 3 numbers or more (clouds), PLY, OBJ, OFF, STL and VTK's legacy
-polygonal data (meshes; OBJ, OFF and VTK without faces are clouds).
-The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl .npy .vtk,
-and where that is unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply and
-points.pcd pass them on.
+FILE is a cloud (PCD, PLY, LAS, text in columns, or NPY of N x 3 or wider) or a mesh (PLY, OBJ, OFF, STL, or VTK legacy
+polygonal data). OBJ, OFF and VTK without faces are clouds. The extension decides the format (.pcd .ply .las .xyz .xyzn
+.pwn .txt .csv .asc .pts .obj .off .coff .noff .stl .npy .vtk), or if it is unknown the content. L and M use the normals
+of FILE only with --normals; points.ply and points.pcd contain them in any case.
 
-Writes into DIR, renamed one after the other when all are complete; other files there stay, and are no part of it:
-  report.json         what happened, with options, sign and scale, and which files are of this result
+Files in DIR, which replace older ones when all are complete; other files in DIR are kept:
+  report.json         counts, seconds, options, sign and scale, and the list of the files of this result
   measured_positions.npy
-                      N x 3: where lengths are measured, noisy points of a cloud put back onto the surface
-  components.npy      the connected component of each point, 0 has the most points; -1: takes no part
+                      N x 3: the positions between which lengths are measured; noisy points of a cloud are moved
+  components.npy      the connected component of each point; 0 has the most points, -1: takes no part
   --format npz
-  L.npz               sparse matrix, scipy.sparse.load_npz
-  M.npy               areas
+  L.npz               N x N sparse matrix, for scipy.sparse.load_npz
+  M.npy               N areas
   status.npy          0 active, 1 not finite, 2 coincident, 3 isolated
-  representative.npy  the point that stands for a coincident one, counted from 0
-  boundary.npy        0, or why the surface ends there: 1 rim (the sampling ends), 2 jump (another surface lies
-                      beyond; of organized clouds and those with a VIEWPOINT as seen from there), 3 lost (triangles
-                      of the surface are missing)
-  frames.npy          N x 3 x 3: of each point the x axis, the y axis and the normal; none for meshes
-  noise.npy           the noise around each point that was moved, a standard deviation; 0 elsewhere, empty if none was
-  component_edges.npy for each component: sides of triangles, their mean length, their mean squared length
+  representative.npy  the point that represents a coincident one, otherwise the point itself, counted from 0
+  boundary.npy        0 where the surface continues; where it ends 1 rim (the sampling ends), 2 jump (another surface
+                      lies behind; seen from the sensor, if its position is known), 3 lost (triangles are missing)
+  frames.npy          N x 3 x 3: x axis, y axis and normal of each point; empty for meshes
+  noise.npy           standard deviation of the noise around each moved point, 0 at the others; empty if none was moved
+  component_edges.npy for each component the number of triangle sides, their mean length and mean squared length
   --format mtx
   L.mtx, M.mtx        Matrix Market: lower triangle of a symmetric matrix, N x 1 array
   --format mat
   laplacian.mat       MATLAB: L, M, status, representative, boundary, conventions
   --format spmat
-  L.spmat, M.spmat    a line `row column value` per entry, counted from 1; M as a diagonal matrix
+  L.spmat, M.spmat    a line `row column value` per entry, counted from 1; M is a diagonal matrix
   --format ply
-  points.ply          the points with mass, boundary, status and representative as fields
+  points.ply          the points with the fields mass, boundary, status and representative
   --format pcd
   points.pcd          the same, for PCL
   --format cover
-  cover.npz           the triangles of the tufted cover by corners, gluing and lengths, which `tufted distance
-                      --operator` needs; three times as large as all of npz, so only on request
+  cover.npz           the triangles of the tufted cover with their gluing and lengths, which subcommands such as
+                      `tufted distance --operator` need; three times as large as the files of npz
   --format triangles
-  triangles.ply       triangles to look at, at the measured positions: of a cloud those of its surface, oriented alike,
-                      one or two at each edge; of a mesh its own)";
+  triangles.ply       triangles between the measured positions: for a cloud a consistently oriented surface with one or
+                      two triangles at each edge, for a mesh its own)";
 
 struct Settings {
   Input input;

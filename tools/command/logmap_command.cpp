@@ -14,23 +14,23 @@
 namespace logmap_command {
 namespace {
 
-constexpr const char* description = "Logarithmic map: in which direction, and how far, each point lies from one.";
+constexpr const char* description = "Compute the logarithmic map: distance and direction of every point from a source.";
 
 constexpr const char* footer =
     R"(Example:
   tufted logmap scan.ply --source 0 --out logmap
 
-The two coordinates of a point are its geodesic distance from the source, in the direction in which the shortest
-path leaves it. The first axis is --axis, projected into the tangent plane of the source, or any tangent without;
-report.json says which, and the second is perpendicular to it, counterclockwise seen from the normal, which is that of
-`tufted normals`.
+The two coordinates of a point are its geodesic distance from the source, in the direction in which its shortest path
+leaves the source. The first axis is --axis, projected to the tangent plane of the source; without --axis it is any
+tangent. The second axis is perpendicular to the first, counterclockwise seen from the normal of `tufted normals`.
 
-Writes into DIR, renamed one after the other when all are complete:
-  logmap.npy   N x 2, float64, in the file's unit; 0, 0 at the source, NaN where no path leads
+Files in DIR, which replace older ones when all are complete:
+  logmap.npy   N x 2, float64, in the unit of FILE; 0, 0 at the source, NaN where no path leads
   points.ply   the points with the fields logmap_0 and logmap_1, float32; points.pcd with --format pcd
   report.json  source, axes, rounds, residual, backward error, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
---format npz,ply,cover: distances need the cover's triangles.)";
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --format npz,ply,cover --out DIR` wrote: distances
+need the triangles of the cover.)";
 
 struct Settings {
   OperatorSettings source;

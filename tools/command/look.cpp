@@ -163,9 +163,7 @@ tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
 
 void addPictureOptions(CLI::App& command, Look& look) {
   command.add_option("--png", look.png, "Write a picture")->check(notEmpty)->type_name("FILE.png");
-  command
-      .add_option("--color", look.color,
-                  "Field that is shown as colours, or none for the shape alone (the first field)")
+  command.add_option("--color", look.color, "Field to show, or none for the shape alone (the first field)")
       ->check(notEmpty)
       ->type_name("FIELD");
   addNumber(command, "--column", look.column, 0, std::numeric_limits<int>::max(),
@@ -181,8 +179,8 @@ void addPictureOptions(CLI::App& command, Look& look) {
   const auto set_camera = [&look](const std::string& text) { setCamera(text, look.picture.camera); };
   command
       .add_option_function<std::string>("--camera", set_camera,
-                                        "Direction to the camera, in degrees around the up axis and above the horizon, "
-                                        "and zoom factor (automatic, 1)")
+                                        "Camera: degrees around the up axis, degrees above the horizon, zoom factor "
+                                        "(automatic, zoom 1)")
       ->type_name("AZIMUTH,ELEVATION[,ZOOM]");
   addChoice(command, "--up", look.picture.camera.up, axes,
             "Axis that points up in pictures, and towards which the normals of open sheets point (automatic)");

@@ -14,22 +14,24 @@
 namespace minimal_command {
 namespace {
 
-constexpr const char* description = "The surface of the least area that a rim, or given points, span.";
+constexpr const char* description = "Find the surface of least area that a rim, or given points, span.";
 
 constexpr const char* footer =
     R"(Examples:
   tufted minimal open.off --out soap
   tufted minimal open.off --fixed rim.txt --out soap
 
-The points of the rim stay in place, or those in --fixed; all others move until each is a mean of its neighbours, with
-the weights of the surface as it lies then. Of a cloud the triangles are those that `tufted view` shows.
+The points of the rim stay in place, or with --fixed those in the text file. All others move until each is a mean of its
+neighbours, with weights of the surface at its present position. The triangles of a cloud are those of
+`tufted laplacian --format triangles`.
 
-Writes into DIR, renamed one after the other when all are complete:
-  positions.npy  N x 3, float64; points on no triangle, and on parts without a fixed point, stay
-  points.ply     the points where they are now, without normals; points.pcd with --format pcd
-  report.json    points that stayed and moved, area before and after, iterations, whether they converged, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written of a cloud
-with --format npz,ply,cover.)";
+Files in DIR, which replace older ones when all are complete:
+  positions.npy  N x 3, float64; points without a triangle, and points of parts without a fixed point, stay
+  points.ply     the moved points, without normals; points.pcd with --format pcd
+  report.json    fixed and moved points, area before and after, iterations, whether they converged, seconds
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --format npz,ply,cover --out DIR` wrote: this command
+needs the cover, and of a mesh also the triangles in points.ply.)";
 
 struct Settings {
   OperatorSettings source;

@@ -7,23 +7,24 @@
 namespace normals_command {
 namespace {
 
-constexpr const char* description = "Normals, towards the sensor or consistently outwards.";
+constexpr const char* description = "Compute normals that face the sensor, or that consistently point outwards.";
 
 constexpr const char* footer =
     R"(Example:
   tufted normals scan.ply --out normals
 
-Normals are those of the planes through each point's neighbours; of a mesh, those of its triangles.
-Where the sensor's position is known, each faces it: --viewpoint, VIEWPOINT of a PCD file, or the origin of a depth
-image. Otherwise, and with --consistent, normals agree with their neighbours' on each component, and point outwards
-where it encloses a volume. An open sheet has no outside: --up AXIS, or else the side to which it bulges, decides. On a
-plane the largest coordinate of the mean normal is positive.
+The normal of a point is that of the plane through its neighbours; on a mesh it is that of the triangles.
+If the position of the sensor is known (--viewpoint, VIEWPOINT of a file, or the origin for a depth image), each normal
+faces it. Otherwise, and with --consistent, the normals of neighbours agree on each component, and point outwards if it
+encloses a volume. An open sheet has no outside: its normals point along --up AXIS, or without it to the side to which
+the sheet bulges. On a plane the largest coordinate of the mean normal is positive.
 
-Writes into DIR, renamed one after the other when all are complete:
-  normals.npy  N x 3, float64, unit length; not finite points: 0
+Files in DIR, which replace older ones when all are complete:
+  normals.npy  N x 3, float64, of unit length; 0 at points that are not finite
   points.ply   the points with the normals, float32; points.pcd with --format pcd
-  report.json  orientation, components, normals turned, neighbours that disagree, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+  report.json  orientation, components, reversed normals, pairs of neighbours that disagree, seconds
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;

@@ -16,20 +16,22 @@
 namespace operators_command {
 namespace {
 
-constexpr const char* description = "Operators for learning on surfaces, in one .npz as DiffusionNet caches them.";
+constexpr const char* description =
+    "Write operators for learning on surfaces into one .npz, as DiffusionNet caches them.";
 
 constexpr const char* footer = R"(Example:
   tufted operators scan.ply --count 128 --out operators
 
-Writes into DIR, renamed one after the other when all are complete:
-  operators.npz  verts, faces, frames (N x 3 x 3: x axis, y axis, normal), k_eig, mass, evals, evecs, and L, gradX,
-                 gradY as _data, _indices, _indptr, _shape of csc matrices; float64. The cache of DiffusionNet has
-                 these names; its file names are hashes, so load this one and hand on its arrays.
+Files in DIR, which replace older ones when all are complete:
+  operators.npz  float64: verts, faces, frames (N x 3 x 3: x axis, y axis, normal), k_eig, mass, evals, evecs, and L,
+                 gradX, gradY as the arrays _data, _indices, _indptr, _shape of csc matrices. The names are those of
+                 DiffusionNet's cache. Its file names are hashes, so load this file and pass its arrays on.
   points.ply     the points with the fields frames and evecs, float32; points.pcd with --format pcd
-  report.json    iterations, residual and seconds of the spectrum, neighbors and seconds of the gradients
-gradX and gradY are slopes along the axes of the frames, by least squares over the nearest points. Points that take no
-part have rows of zeros. FILE and the options of building are those of `tufted laplacian`; --operator takes what that
-has written, with the points (of meshes points.ply, which has the triangles).)";
+  report.json    iterations, residual and seconds of the spectrum, neighbours and seconds of the gradients
+gradX and gradY are slopes along the axes of the frames, by least squares over the nearest points. Rows of points that
+take no part are zero.
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote, and needs points.ply or points.pcd in DIR (of a mesh points.ply, for the triangles).)";
 
 struct Settings {
   OperatorSettings source;

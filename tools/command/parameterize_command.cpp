@@ -15,28 +15,30 @@
 namespace parameterize_command {
 namespace {
 
-constexpr const char* description = "Lay the surface out in the plane: two coordinates for each point.";
+constexpr const char* description = "Map the surface to the plane: two coordinates for each point.";
 
 constexpr const char* footer =
     R"(Examples:
   tufted parameterize open.off --out map
   tufted parameterize open.off --method harmonic --weights mean-value --out disc
 
-  conformal  angles are kept as well as can be, the rim is free; any number of rims and of parts, which lie beside
-             each other. A part has the area that it has on the surface.
-  harmonic   the rim lies on a circle of radius 1, or where --rim puts it; each point is a mean of its neighbours, by
-             the weights of L or by mean-value weights, which flip no triangle. The surface must be a disk.
-Of a cloud the triangles are those that `tufted view` shows. A closed or one-sided surface is refused, and conformal
-maps of tubes so long that triangles collapse: cut them open along their length.
---rim is a text file of lines INDEX or INDEX U V, the points of the rim in order.
+  conformal  keeps angles as well as possible and leaves the rim free. The surface may have several rims and parts. The
+             parts lie beside each other, each with the area that it has on the surface.
+  harmonic   places the rim on a circle of radius 1, or where --rim puts it, and makes every other point a mean of its
+             neighbours, with the weights of L or with mean-value weights, which flip no triangle. The surface must be a
+             disk unless --rim is given.
+The triangles of a cloud are those of `tufted laplacian --format triangles`. Closed and one-sided surfaces are refused,
+and so are conformal maps of tubes so long that triangles collapse: cut such surfaces open, tubes along their length.
+--rim is a text file of the points of the rim in order, in lines INDEX or INDEX U V.
 
-Writes into DIR, renamed one after the other when all are complete:
-  uv.npy       N x 2, float64; NaN at points that take no part, or in parts that no plane can hold
+Files in DIR, which replace older ones when all are complete:
+  uv.npy       N x 2, float64; NaN at points that take no part and in parts that cannot be mapped
   points.ply   the points with the field uv, float32; points.pcd with --format pcd
-  report.json  method, charts, rims, flipped and collapsed triangles, quasi_conformal_error (1: angles are kept),
-               residual, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written of a cloud
-with --format npz,ply,cover.)";
+  report.json  method, charts, rims, flipped and collapsed triangles, quasi_conformal_error (1 where all angles are
+               kept), residual, seconds
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --format npz,ply,cover --out DIR` wrote: this command
+needs the cover, and of a mesh also the triangles in points.ply.)";
 
 using tufted::HarmonicWeights;
 using tufted::ParameterizationMethod;

@@ -13,23 +13,24 @@
 namespace path_command {
 namespace {
 
-constexpr const char* description = "Shortest path between two points, over the surface.";
+constexpr const char* description = "Find a shortest path between two points along the surface.";
 
 constexpr const char* footer =
     R"(Examples:
   tufted path scan.ply --from 0 --to 99 --out path
   tufted path mesh.off --from 1,0,0 --to -1,0,0 --out path
 
-The path follows the distance down to --from and is then straightened across the triangles until no path near it is
-shorter. A position names the point nearest to it.
+A first path descends the distance from --to to --from. It is then straightened across the triangles until no path close
+to it is shorter.
 
-Writes into DIR, renamed one after the other when all are complete:
+Files in DIR, which replace older ones when all are complete:
   path.npy      K x 3, float64: the two ends, and where the path crosses edges between points
-  distance.npy  N distances from --from, float64, as `tufted distance` gives them
+  distance.npy  N distances from --from, float64, as `tufted distance` computes them
   points.ply    the points with the field distance, float32; points.pcd with --format pcd
   report.json   ends, length, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
---format npz,ply,cover: the path needs the cover's triangles.)";
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --format npz,ply,cover --out DIR` wrote: the path
+needs the triangles of the cover.)";
 
 struct Settings {
   OperatorSettings source;

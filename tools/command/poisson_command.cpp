@@ -18,17 +18,18 @@ constexpr const char* footer =
     R"(Example:
   tufted poisson scan.ply --field x --out solution
 
-On a component that is only possible where f has mean 0, so its mean (weighted by M) is taken out, and u is made
-to have mean 0. With pins, as those of `tufted interpolate`, u has their values and the equation holds at all other
-points: nothing is taken out, and components without a pin are NaN.
+On each component the equation has a solution only if f has mean 0. Without pins the mean of f, weighted by M, is
+therefore subtracted, and u has mean 0. With pins, given as for `tufted interpolate`, u has the values of the pins, the
+equation holds at all other points, nothing is subtracted, and components without a pin are NaN.
 
-Writes into DIR, renamed one after the other when all are complete:
+Files in DIR, which replace older ones when all are complete:
   u.npy        N values, or N x c for c columns of f, float64; NaN at points that take no part
-  mean.npy     without pins: what was taken out of f at each point, in the same shape
+  mean.npy     without pins: the mean that was subtracted from f at each point, in the same shape as u
   points.ply   the points with the fields u and mean, float32; points.pcd with --format pcd
-  report.json  the greatest mean taken out, method, iterations, residual, backward error, seconds, and where parts are
-               badly joined, which
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+  report.json  the largest mean subtracted, method, iterations, residual, backward error, seconds, and parts that are
+               almost disconnected, if any
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;

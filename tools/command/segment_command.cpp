@@ -18,24 +18,26 @@
 namespace segment_command {
 namespace {
 
-constexpr const char* description = "Cut the surface into segments: cells around points, or parts between necks.";
+constexpr const char* description = "Cut the surface into segments: cells around seeds, or parts between narrow necks.";
 
 constexpr const char* footer =
     R"(Example:
   tufted segment scan.ply --count 6 --out segments
 
-  voronoi   a point belongs to the seed that is nearest along the surface. Seeds are --seeds, or K points, each as far
-            as possible from those before it. Connected components that are small beside the cells get none.
-  spectral  points that diffusion joins closely, by k-means on the first K eigenvectors: connected components first,
-            then parts that narrow necks join
+  voronoi   each point belongs to the seed that is nearest along the surface. Seeds are --seeds, or K points, each as
+            far as possible from those before it. Connected components that are small compared with the cells have no
+            seed.
+  spectral  points are clustered by k-means on the first K eigenvectors, which separates connected components first,
+            then parts that are joined by narrow necks
 
-Writes into DIR, renamed one after the other when all are complete:
-  labels.npy   N labels, int32, 0 for the segment of the largest area; -1 at points that take no part, and in connected
-               components that no segment reaches
+Files in DIR, which replace older ones when all are complete:
+  labels.npy   N labels, int32, 0 for the segment of the largest area; -1 at points that take no part and in connected
+               components without a segment
   points.ply   the points with the field labels, float32; points.pcd with --format pcd
   report.json  method, seeds, the area of each segment in length^2, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
---format npz,ply,cover: distances need the cover's triangles.)";
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --format npz,ply,cover --out DIR` wrote: distances
+need the triangles of the cover.)";
 
 const std::map<std::string, tufted::SegmentMethod> methods = {{"voronoi", tufted::SegmentMethod::voronoi},
                                                               {"spectral", tufted::SegmentMethod::spectral}};

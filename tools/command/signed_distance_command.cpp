@@ -18,22 +18,25 @@
 namespace signed_distance_command {
 namespace {
 
-constexpr const char* description = "Distance from a curve on the surface, positive to its left.";
+constexpr const char* description =
+    "Compute the distance from a curve on the surface, positive on the left of the curve.";
 
 constexpr const char* footer =
     R"(Example:
   tufted signed-distance mesh.off --curve curve.txt --out signed
 
 --curve is a text file of the points along the curve in order, an INDEX per line; a closed curve ends with its first
-point. The distance is positive to the left, seen from the side of the normals, which are those of `tufted normals`. A
-curve may be open or have gaps, across which the distance goes on smoothly. `tufted path` finds ways between points.
+point. The distance is positive on the left of the curve, seen from the side of the normals, which are those of
+`tufted normals`. The curve may be open or have gaps, across which the distance continues smoothly. `tufted path` finds
+paths between points.
 
-Writes into DIR, renamed one after the other when all are complete:
-  distance.npy  N values, float64, in the file's unit; NaN on components without the curve, and at points that take no
-                part
+Files in DIR, which replace older ones when all are complete:
+  distance.npy  N distances, float64, in the unit of FILE; NaN on components without the curve, and at points that take
+                no part
   points.ply    the points with the field distance, float32; points.pcd with --format pcd
   report.json   points and length of the curve, rounds, residual, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;

@@ -16,7 +16,7 @@
 namespace smooth_command {
 namespace {
 
-constexpr const char* description = "Smooth the positions of the points, or fields.";
+constexpr const char* description = "Smooth the positions of the points, or values at the points.";
 
 constexpr const char* footer =
     R"(Examples:
@@ -24,18 +24,21 @@ constexpr const char* footer =
   tufted smooth mesh.off --method taubin --iterations 20 --out fair
   tufted smooth mesh.off --time-step 10 --keep-volume --out round
 
-  implicit  steps of the heat equation, of any size: all stays within the range of what was, shapes shrink
-  taubin    a step towards the mean of the neighbours, by lambda, then one away from it, by mu: shapes hardly shrink
---keep-volume scales each component about its centre of mass to the volume it had; all must be closed.
-With --denoise it starts from where that moves the points, and not from those of FILE; with --operator from points.ply.
+  implicit  takes steps of the heat equation of any size. Values stay within their former range, and shapes shrink.
+  taubin    alternates a step towards the mean of the neighbours (--lambda) and a step away from it (--mu), which hardly
+            shrinks shapes
+--keep-volume scales each component about its centre of mass. All components must be closed, except for small holes of
+clouds. With --denoise the moved points are smoothed, with --operator those of points.ply.
 
-Writes into DIR, renamed one after the other when all are complete:
-  positions.npy  N x 3, float64; points that are not finite or isolated stay, coincident ones lie where their
-                 representative does. With --field or --values: smoothed.npy, N values, or N x c for c columns
-  points.ply     the points where they are now, without normals; with --field or --values the points as they were, with
-                 the field smoothed, float32; points.pcd with --format pcd
-  report.json    method, its parameters, the farthest and the mean way of a point
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+Files in DIR, which replace older ones when all are complete:
+  positions.npy  N x 3, float64; points that are not finite or isolated stay, coincident points lie where their
+                 representative does
+  smoothed.npy   with --field or --values, instead of positions.npy: N values, or N x c for c columns, float64
+  points.ply     the moved points, without normals; with --field or --values the points of FILE with the field smoothed,
+                 float32; points.pcd with --format pcd
+  report.json    method, its parameters, the largest and the mean displacement of a point
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote. --keep-volume also needs the cover: --format npz,ply,cover.)";
 
 using tufted::SmoothingMethod;
 

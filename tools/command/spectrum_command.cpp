@@ -10,23 +10,25 @@
 namespace spectrum_command {
 namespace {
 
-constexpr const char* description = "Eigenvalues and eigenvectors of L x = lambda M x, the smallest ones.";
+constexpr const char* description = "Compute the smallest eigenvalues of L x = lambda M x, and their eigenvectors.";
 
 constexpr const char* footer =
     R"(Example:
   tufted spectrum scan.ply --count 64 --out spectrum
 
-Eigenvalues are ascending, in 1 / length^2. Vectors are M-orthonormal, and of both signs
-that is taken which makes the largest entry positive. Each connected component also has the eigenvalue 0 once, exactly,
-with a constant on it: the null space, whose size is said. --with-null-space writes it in front of the K.
+Eigenvalues are in ascending order, in 1 / length^2. Eigenvectors are M-orthonormal; the sign of each makes the entry of
+the largest magnitude positive. Each connected component also has the eigenvalue 0 exactly once, with an eigenvector
+that is constant on the component. The summary states the size of this null space; --with-null-space writes it before
+the K others.
 
-Writes into DIR, renamed one after the other when all are complete:
+Files in DIR, which replace older ones when all are complete:
   evals.npy    K positive eigenvalues, float64
-  evecs.npy    N x K, float64; 0 at points that take no part, coincident ones as their representative
-  points.ply   the points with evecs_0, evecs_1, ... as fields of float32; points.pcd with --format pcd: a field evecs
+  evecs.npy    N x K, float64; 0 at points that take no part, at coincident points as at their representative
+  points.ply   the points with the fields evecs_0, evecs_1, ..., float32; points.pcd with --format pcd: one field evecs
                of K values
   report.json  size of the null space, checksum of L and M, method, iterations, residual, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;

@@ -16,21 +16,22 @@
 namespace transport_command {
 namespace {
 
-constexpr const char* description = "Carry tangent vectors of some points to all, parallel along the surface.";
+constexpr const char* description = "Carry tangent vectors from sources to all points by parallel transport.";
 
 constexpr const char* footer =
     R"(Example:
   tufted transport scan.ply --source 0 --vector 1,0,0 --out vectors
 
-Each --source, --near or line of --sources takes one --vector: the first vector belongs to the first of --source,
-those of --near and of --sources follow. Vectors are projected into the tangent planes of their points. Other points
-have, nearly, what the nearest source has, turned with the surface along the shortest path.
+--vector is repeated for each source, in the order --source, --near, --sources. Each vector is projected to the tangent
+plane of its source. Every other point receives approximately the vector of the nearest source, turned with the surface
+along the shortest path.
 
-Writes into DIR, renamed one after the other when all are complete:
+Files in DIR, which replace older ones when all are complete:
   vectors.npy  N x 3, float64, tangent to the surface; 0 where no path leads
   points.ply   the points with the fields vectors_0 to vectors_2, float32; points.pcd with --format pcd
   report.json  sources, time step, rounds, residual, backward error, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;

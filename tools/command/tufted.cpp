@@ -44,8 +44,9 @@ constexpr const char* examples =
   tufted laplacian scan.ply --out laplacian
   tufted distance scan.ply --source 0 --out distance
 
-`tufted help SUBCOMMAND` explains one, with an example. Files are PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL or VTK.
-Exit codes: 0 done, 1 data or numerics, 2 usage, 130 cancelled.)";
+`tufted help SUBCOMMAND` explains a subcommand, with examples. L is the Laplacian, M the diagonal matrix of areas.
+Formats that are read: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL and VTK.
+Exit codes: 0 done, 1 the data or the numerics do not allow it, 2 the command line is wrong, 130 cancelled.)";
 
 /// A purpose and the subcommands for it, in the order of the help.
 struct Purpose {

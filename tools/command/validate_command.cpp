@@ -39,37 +39,38 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* name = "validate";
 
-constexpr const char* description = "Build L and M for files or whole folders and check everything that they promise.";
+constexpr const char* description = "Build L and M for files or whole folders and check every guarantee.";
 
 constexpr const char* footer =
     R"(Example:
   tufted validate scans --json
 
-Takes files, and folders with all that is below them and has a known extension; links to folders are followed.
-Each file has a process of its own, so that none can stop the run. Prints a line per file, in the order given:
+Folders are searched with all folders below them, also behind links, for files with a known extension. Each file has its
+own process, so that a crash does not end the run. A line per file is printed, in the order given:
 
-  result   OK, EMPTY (nothing broke, but no point is active: L and M are zero), REFUSED (the reader gives its reason;
-           also a folder that cannot be listed) or FAILED (what broke, or how the process ended)
-  seconds  from the start of its process to its end: reading, building, checking
-  MB       peak memory of its process
+  result   OK: all guarantees hold. EMPTY: nothing failed, but no point is active, so L and M are zero. REFUSED: the
+           file cannot be read, or the folder cannot be listed. FAILED: a guarantee is broken, or the process
+           ended early
+  seconds  time from the start of the process to its end: reading, building, checking
+  MB       peak memory of the process
   nnz/row  stored entries of L per active point
   flips    intrinsic edge flips
-  >0       off-diagonals of L that are positive
-  clamped  largest negative weight set to 0, over the diagonal
-  asym     greatest |L_ij - L_ji| over the larger diagonal
-  rowsum   greatest |sum of a row| over its diagonal
-  recomp   greatest difference of L from the same assembled once more from the faces of its cover, over the larger
-           diagonal; - where there is no cover
+  >0       number of positive off-diagonal entries of L
+  clamped  largest negative weight that was set to 0, divided by the diagonal
+  asym     largest |L_ij - L_ji|, divided by the larger diagonal
+  rowsum   largest |sum of a row|, divided by its diagonal
+  recomp   largest difference between L and a second assembly from the faces of the cover, divided by the larger
+           diagonal; - without a cover
   psd      whether L + 1e-12 diag(L) of the active points has a Cholesky factor
   parts    connected components
-  active, not fin(ite), coinc(ident), isol(ated): points by status
+  active, not fin(ite), coinc(ident), isol(ated): number of points with this status
 
-The intrinsic triangulation is checked as well, and M against the areas that it must hold. What could not be checked is
-said behind the file's name. The exit code is 1 if a file FAILED, and 0 otherwise.
+The intrinsic triangulation is also checked, and M against the areas of the points. What could not be checked follows
+the name of the file. The exit code is 1 if a file FAILED, otherwise 0.
 
---operator takes what `tufted laplacian --out DIR` has written: --sign igl and --dummy are undone, and the same is
-checked, of the intrinsic triangulation if --format had `cover`. A folder without it all, or one whose arrays do not fit
-each other, is REFUSED.)";
+--operator checks the same of L and M that `tufted laplacian --out DIR` wrote, after undoing --sign igl and --dummy; the
+intrinsic triangulation only if they were written with --format npz,cover. A folder in which arrays are missing or do
+not fit each other is REFUSED.)";
 
 constexpr double most_seconds = 1e9;     // greatest value of --time
 constexpr std::size_t most_text = 4096;  // most bytes shown of the output of a process without a result

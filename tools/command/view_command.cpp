@@ -17,18 +17,18 @@
 namespace view_command {
 namespace {
 
-constexpr const char* description = "A page and a picture of results, or of a file.";
+constexpr const char* description = "Show results, or a file, in a page for a browser or in a picture.";
 
 constexpr const char* footer =
     R"(Example:
   tufted view distance --png distance.png
 
-WHAT is a folder that another subcommand has written, with points.ply or points.pcd in it: its arrays of a
-row per point are shown, the first of them first. Or it is a file of points or a mesh, whose fields are shown; its
-colours are the field `color`. Without --out and --png the page is written to view.html in the folder, or beside the
-file with `.html` behind its name.
+WHAT is a folder that another subcommand has written, or a file of a point cloud or mesh. Of a folder the arrays with a
+row per point are shown, results first; points.ply or points.pcd must be in it. Of a file its fields are shown, and its
+colours as the field `color`. Without --out and --png the page of a folder is view.html in it, and that of a file is
+beside the file, with `.html` added to its name.
 
-The page is complete: it works from disk, without a network, in any browser with WebGL 2.)";
+The page is a single file that needs no network, for any browser with WebGL 2.)";
 
 struct Settings {
   std::filesystem::path what;

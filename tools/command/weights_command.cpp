@@ -15,21 +15,23 @@
 namespace weights_command {
 namespace {
 
-constexpr const char* description = "Bounded biharmonic weights of handles, for skinning and blending.";
+constexpr const char* description = "Compute bounded biharmonic weights of handles, for skinning and blending.";
 
 constexpr const char* footer =
     R"(Example:
   tufted weights mesh.off --handles points.txt --out weights
 
---handles is a text file of lines INDEX, a handle each, or INDEX HANDLE, where points of one HANDLE (0, 1, ...) belong
-together. Each handle's weight is 1 at its points, 0 at those of others, between 0 and 1 elsewhere, and bends the least;
-the weights of a point have the sum 1.
+--handles is a text file. Each line INDEX is a handle of one point; lines INDEX HANDLE with the same HANDLE (0, 1, ...)
+form one handle. The weight of a handle is 1 at its points, 0 at the points of other handles, between 0 and 1 elsewhere,
+and bends least. The weights of each point sum to 1.
 
-Writes into DIR, renamed one after the other when all are complete:
+Files in DIR, which replace older ones when all are complete:
   weights.npy  N x H for H handles, float64; NaN on components without a handle, and at points that take no part
   points.ply   the points with the fields weights, float32; points.pcd with --format pcd
-  report.json  handles, systems solved, residual of the conditions of Karush, Kuhn and Tucker, local maxima, seconds
-FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+  report.json  handles, systems solved, residual of the optimality conditions (Karush-Kuhn-Tucker), local maxima,
+               seconds
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
 
 struct Settings {
   OperatorSettings source;
