@@ -5,7 +5,7 @@ set -euo pipefail
 
 command=$1 folder=$2
 mkdir -p "$folder"
-words=$("$command" --help | sed -n '/^Options:/,/^$/d; /^Examples:/q; s/^  \([a-z]\{1,\}\) .*/\1/p')
+words=$("$command" --help | sed -n '/^Options:/,/^$/d; /^Examples:/q; s/^  \([a-z-]\{1,\}\) .*/\1/p')
 
 # page NAME SECTION_NAME HELP: makes a page from a help text by help2man.
 page() {
