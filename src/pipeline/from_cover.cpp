@@ -57,8 +57,9 @@ Buffer<SideSums> sidesOfTriangles(const IntrinsicTriangulation& cover, const Wor
 
 }  // namespace
 
-void finishFromCover(IntrinsicTriangulation cover, const CoverVertices& vertices, double delta, bool keep_cover,
+void finishFromCover(std::shared_ptr<StoredCover> stored, const CoverVertices& vertices, double delta, bool keep_cover,
                      const Workers& workers, StageClock& clock, Laplacian& result) {
+  IntrinsicTriangulation& cover = stored->triangulation;
   const double scale = faceScale(result.kind);
   BuildFigures figures{.mean = measureLengths(cover, vertices.points, workers)};
   const Buffer<SideSums> sides = sidesOfTriangles(cover, workers);
@@ -104,7 +105,7 @@ void finishFromCover(IntrinsicTriangulation cover, const CoverVertices& vertices
   finishResult(figures, vertices.exponent, result);
   if (keep_cover) {
     toInput(cover, vertices.input_index, size, vertices.exponent);
-    result.setCover(std::move(cover));
+    result.cover_source = std::move(stored);
   }
   clock.finish("matrices", bytesOfMatrices(result));
 }

@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "base/buffer.h"
+#include "base/cover_source.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
 #include "base/stage_clock.h"
-#include "tufted/intrinsic_triangulation.h"
 #include "tufted/laplacian.h"
 
 namespace tufted {
@@ -22,7 +22,7 @@ struct CoverVertices {
 /// (Algorithm 2), L and M.
 /// @param delta least length of an edge, relative to the longest side of the smaller of its two faces
 /// @param keep_cover whether the result keeps the cover, in the caller's numbering and unit
-void finishFromCover(IntrinsicTriangulation cover, const CoverVertices& vertices, double delta, bool keep_cover,
+void finishFromCover(std::shared_ptr<StoredCover> stored, const CoverVertices& vertices, double delta, bool keep_cover,
                      const Workers& workers, StageClock& clock, Laplacian& result);
 
 }  // namespace tufted

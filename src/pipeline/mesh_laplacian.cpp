@@ -87,7 +87,8 @@ void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, 
   const Buffer<int> usable = usableTriangles(triangles, result.status, result.representative, report);
   clock.finish("scale", static_cast<std::size_t>(n) * 3 * sizeof(double) + bytesOf(usable));
 
-  IntrinsicTriangulation cover = takeCover(result);
+  std::shared_ptr<StoredCover> stored = takeCover(result);
+  IntrinsicTriangulation& cover = stored->triangulation;
   resizeCover(cover, n, static_cast<std::int64_t>(usable.size()));
   for (std::size_t t = 0; t < usable.size(); ++t) {
     const auto corner = [&](int k) { return result.representative[triangles(usable[t], k)]; };
@@ -101,7 +102,7 @@ void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, 
 
   Buffer<int> input_index(n);
   std::iota(input_index.begin(), input_index.end(), 0);
-  finishFromCover(std::move(cover), {scaled, input_index, scaling.exponent}, options.mollify, options.keep_cover,
+  finishFromCover(std::move(stored), {scaled, input_index, scaling.exponent}, options.mollify, options.keep_cover,
                   workers, clock, result);
   workers.report("done", 1);
 }

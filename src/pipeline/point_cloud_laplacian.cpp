@@ -38,12 +38,13 @@ constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
 void finishFromWholeCover(SurfaceStars built, const RankedCloud& cloud, const CloudOptions& options,
                           const Workers& workers, StageClock& clock, Laplacian& result) {
   release(built.support.radius);
-  IntrinsicTriangulation cover = takeCover(result);
+  std::shared_ptr<StoredCover> stored = takeCover(result);
+  IntrinsicTriangulation& cover = stored->triangulation;
   addStars(built.stars, options.paper.gluing, cover, workers);
   built = {};
   glueEdges(cover, cloud.points, {options.paper.order, options.paper.seed}, workers);
   clock.finish("cover", bytesOfCover(cover));
-  finishFromCover(std::move(cover), {cloud.points, cloud.input_index, cloud.exponent}, options.mollify,
+  finishFromCover(std::move(stored), {cloud.points, cloud.input_index, cloud.exponent}, options.mollify,
                   options.keep_cover, workers, clock, result);
 }
 

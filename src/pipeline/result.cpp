@@ -41,12 +41,13 @@ void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& w
   result.report.threads = workers.count();
 }
 
-IntrinsicTriangulation takeCover(Laplacian& result) {
+std::shared_ptr<StoredCover> takeCover(Laplacian& result) {
   const auto source = std::const_pointer_cast<CoverSource>(std::exchange(result.cover_source, nullptr));
-  const auto stored = std::dynamic_pointer_cast<StoredCover>(source);
-  if (stored == nullptr || source.use_count() != 2) return {};  // these two are ours
-  std::atomic_thread_fence(std::memory_order_acquire);          // synchronises with the last other owner
-  return std::move(stored->triangulation);
+  auto stored = std::dynamic_pointer_cast<StoredCover>(source);
+  if (stored == nullptr || source.use_count() != 2)  // these two are ours
+    return std::make_shared<StoredCover>(IntrinsicTriangulation());
+  std::atomic_thread_fence(std::memory_order_acquire);  // synchronises with the last other owner
+  return stored;
 }
 
 void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) {

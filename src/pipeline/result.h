@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/buffer.h"
+#include "base/cover_source.h"
 #include "base/parallel.h"
 #include "cover/cover.h"
 #include "tufted/laplacian.h"
@@ -20,7 +21,7 @@ void checkBuild(const char* function, double mollify, int threads);
 void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& workers);
 
 /// The cover of an earlier build for its memory, if nobody else holds it; otherwise a new one.
-IntrinsicTriangulation takeCover(Laplacian& result);
+std::shared_ptr<StoredCover> takeCover(Laplacian& result);
 
 /// Figures of a build besides L and M, in units of the ranked points.
 struct BuildFigures {
