@@ -35,7 +35,8 @@ class CoverSource {
   }
 };
 
-/// A cover that was built with the matrices, or read from a file.
+/// A cover that was built with the matrices, or read from a file. The only source that has one stored, and never made
+/// as a constant, so that a later build may take its memory.
 struct StoredCover final : CoverSource {
   explicit StoredCover(IntrinsicTriangulation given) : triangulation(std::move(given)) {}
   const IntrinsicTriangulation& cover() const override { return triangulation; }

@@ -42,12 +42,11 @@ void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& w
 }
 
 std::shared_ptr<StoredCover> takeCover(Laplacian& result) {
-  const auto source = std::const_pointer_cast<CoverSource>(std::exchange(result.cover_source, nullptr));
-  auto stored = std::dynamic_pointer_cast<StoredCover>(source);
-  if (stored == nullptr || source.use_count() != 2)  // these two are ours
+  const auto source = std::exchange(result.cover_source, nullptr);
+  if (source == nullptr || source->stored() == nullptr || source.use_count() != 1)
     return std::make_shared<StoredCover>(IntrinsicTriangulation());
   std::atomic_thread_fence(std::memory_order_acquire);  // synchronises with the last other owner
-  return stored;
+  return std::const_pointer_cast<StoredCover>(std::static_pointer_cast<const StoredCover>(source));
 }
 
 void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) {
@@ -103,7 +102,7 @@ const IntrinsicTriangulation& Laplacian::cover() const {
 }
 
 void Laplacian::setCover(IntrinsicTriangulation cover) {
-  cover_source = std::make_shared<const StoredCover>(std::move(cover));
+  cover_source = std::make_shared<StoredCover>(std::move(cover));
 }
 
 }  // namespace tufted

@@ -225,6 +225,14 @@ TEST_F(Validate, AFileThatNeedsTooMuchMemoryFailsAndTheOthersDoNot) {
   EXPECT_EQ(files[1]["result"], "OK") << files[1];
 }
 
+TEST_F(Validate, TheResultIsFoundAmongLinesThatOthersWriteToStderr) {
+  // The loader writes before and after all that the program does.
+  const Result result = runProgram({"env", "LD_DEBUG=statistics", tuftedCommand(), "validate", writeTetrahedron()});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(contains(result.err, "runtime linker statistics")) << result.err;
+  EXPECT_TRUE(contains(result.out, "\n1 file: 1 OK, 0 REFUSED, 0 FAILED, ")) << result.out;
+}
+
 TEST_F(Validate, ACrashIsNamedAndTheOthersGoOn) {
   const std::string large = writeLarge(), good = writeTetrahedron();
   Process tufted = startTufted({"validate", "--jobs", "1", large, good});

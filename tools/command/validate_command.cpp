@@ -89,7 +89,7 @@ struct Settings {
 std::vector<std::string> wordsForOne(const std::filesystem::path& path, bool is_operator, const Settings& settings) {
   const double seconds = settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // printed with six decimals
   std::vector<std::string> words = {
-      "validate", "--one", "--jobs", std::to_string(settings.jobs), "--time", std::to_string(seconds)};
+      name, "--one", "--jobs", std::to_string(settings.jobs), "--time", std::to_string(seconds)};
   if (settings.memory) words.insert(words.end(), {"--memory", std::to_string(*settings.memory)});
   for (const auto& [word, as] : kinds)
     if (as == settings.as) words.insert(words.end(), {"--as", word});
@@ -111,15 +111,22 @@ std::string describeEnd(int status, const std::string& text, const Settings& set
     reason << "its process ended with code " << WEXITSTATUS(status) << " and no result";
   }
   if (settings.memory) reason << " under --memory " << *settings.memory;
-  if (!text.empty()) reason << ": " << text.substr(text.size() - std::min(text.size(), most_text));
+  const std::size_t first = text.find_first_not_of('\n', text.size() - std::min(text.size(), most_text));
+  if (first != std::string::npos) reason << ": " << text.substr(first, text.find_last_not_of('\n') + 1 - first);
   return reason.str();
+}
+
+/// The last line that begins with a brace: the loader and libraries may write others to stderr.
+std::string resultIn(const std::string& text) {
+  const std::size_t brace = ("\n" + text).rfind("\n{");
+  return brace == std::string::npos ? "" : text.substr(brace, text.find('\n', brace) - brace);
 }
 
 /// The row of a file whose process has ended.
 Json describeFile(const std::string& file, int status, double seconds, const std::string& text,
                   const Settings& settings) {
   Json row = {{"file", file}, {"result", "FAILED"}, {"reasons", Json::array()}, {"seconds", seconds}};
-  const Json found = Json::parse(text, nullptr, false);
+  const Json found = Json::parse(resultIn(text), nullptr, false);
   if (found.is_object() && WIFEXITED(status) && WEXITSTATUS(status) == exit_done)
     row.update(found);
   else
