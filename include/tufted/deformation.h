@@ -50,12 +50,12 @@ struct DeformationReport {
 /// Moves points of a surface to given places, and lets all others follow (Sharp and Crane 2020, Figure 17). Edge
 /// weights w are those of L, which are positive, so thin or uneven triangles do not bend the result.
 ///
-/// As rigid as possible (Levi, Gotsman: "Smooth rotation enhanced as-rigid-as-possible mesh animation", 2015) minimises
-/// the sum over all points i and their neighbours j of w_ij (|(x'_i - x'_j) - R_i (x_i - x_j)|^2 + s |R_i - R_j|^2),
-/// with a rotation R_i for each point, and s the smoothness times the area of the component. Linear (Lipman et al.:
-/// "Differential coordinates for interactive mesh editing", 2004) minimises the sum over M of |M^-1 L x' - R_i M^-1 L
-/// x|^2, where R_i are the rotations of the surface when its displacement is the biharmonic interpolation of that of
-/// the handles.
+/// DeformationMethod::as_rigid_as_possible (Levi, Gotsman: "Smooth rotation enhanced as-rigid-as-possible mesh
+/// animation", 2015) minimises the sum over all points i and their neighbours j of
+/// w_ij (|(x'_i - x'_j) - R_i (x_i - x_j)|^2 + s |R_i - R_j|^2), with a rotation R_i for each point, and s the
+/// smoothness times the area of the component. Linear (Lipman et al.: "Differential coordinates for interactive mesh
+/// editing", 2004) minimises the sum over M of |M^-1 L x' - R_i M^-1 L x|^2, where R_i are the rotations of the surface
+/// when its displacement is the biharmonic interpolation of that of the handles.
 /// @param laplacian with its positions, from which the points start
 /// @param handles P indices; a coincident one counts as its representative, several at one place as their mean
 /// @param targets P x 3, the new places of the handles, in the caller's unit

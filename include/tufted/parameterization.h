@@ -48,9 +48,9 @@ struct ParameterizationReport {
   std::int64_t rims = 0;              ///< rims of the charts that were laid out
   std::int64_t triangles = 0;         ///< triangles of charts that were laid out, without those at shared points
   std::int64_t flipped = 0;           ///< of `triangles`, those whose area in the plane is not positive
-  /// Of `triangles`, those whose height in the plane, but not on the surface, is below 1e-7 of the extent, as at the
-  /// ends of long tubes, where the scale falls by a factor of e per radius of the tube. They are not counted in
-  /// `flipped`.
+  /// A triangle counts as collapsed, and not in `flipped`, if its height in the plane, but not on the surface, is below
+  /// 1e-7 of the extent. That happens at the ends of long tubes: the scale falls by a factor of e per radius of the
+  /// tube.
   std::int64_t collapsed = 0;
   /// Mean over the triangles that are neither flipped nor collapsed, weighted by their area on the surface, of the
   /// ratio of the singular values of the map: 1 where angles are preserved.

@@ -34,7 +34,7 @@ class SignedDistanceSolver {
   /// @throws SolverFailure when a matrix cannot be factorised
   /// @throws Cancelled when `options.solver.progress` returns false
   explicit SignedDistanceSolver(const Laplacian& laplacian, const VectorHeatOptions& options = {});
-  /// The same with the caller's frames, for meshes those of meshFrames().
+  /// This constructor takes frames of the caller, on meshes those of meshFrames(), in place of Laplacian::frames.
   SignedDistanceSolver(const Laplacian& laplacian, const Frames& frames, const VectorHeatOptions& options = {});
 
   /// Computes signed distances from a curve.

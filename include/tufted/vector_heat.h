@@ -84,7 +84,7 @@ class TransportSolver {
   /// @throws SolverFailure when a matrix cannot be factorised
   /// @throws Cancelled when `options.solver.progress` returns false
   explicit TransportSolver(const Laplacian& laplacian, const VectorHeatOptions& options = {});
-  /// The same with the caller's frames, for meshes those of meshFrames().
+  /// This constructor takes frames of the caller, on meshes those of meshFrames(), in place of Laplacian::frames.
   TransportSolver(const Laplacian& laplacian, const Frames& frames, const VectorHeatOptions& options = {});
 
   /// Transports vectors.
@@ -133,7 +133,7 @@ class LogMapSolver {
   /// @param laplacian with its cover, positions and frames, as a cloud's; not needed after construction
   /// @throws InvalidInput, SolverFailure and Cancelled as TransportSolver(), and InvalidInput if there is no cover
   explicit LogMapSolver(const Laplacian& laplacian, const VectorHeatOptions& options = {});
-  /// The same with the caller's frames, for meshes those of meshFrames().
+  /// This constructor takes frames of the caller, on meshes those of meshFrames(), in place of Laplacian::frames.
   LogMapSolver(const Laplacian& laplacian, const Frames& frames, const VectorHeatOptions& options = {});
 
   /// Computes the coordinates of all points: 0 at the source; NaN where no path leads and at isolated and non-finite

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 constexpr Index block_size = 8;
 /// Steps in which a random block is searched for missed eigenvalues if the factor cannot count them.
 constexpr int search_steps = 8;
-/// The same if the count says that one is missing.
+/// Steps in which a random block is searched for missed eigenvalues if the count says that one is missing.
 constexpr int longest_search = 40;
 /// A column is rounding if less of it than this part of the largest eigenvalue remains after orthogonalisation.
 constexpr double least_part = 1e-15;

@@ -46,8 +46,8 @@ constexpr double most_slope = 0.1;
 /// Half the width of a confidence interval, in standard deviations of independent errors. With 2 windows are wider,
 /// which takes longer, and a clean torus has 0.55 %.
 constexpr double confidence = 1;
-/// The same where noise is estimated from residuals: errors of denoised points are not independent but span some
-/// spacings. With 8 and 13 a noisy sphere has 3.2 and 1.8 %, a torus 2.2 and 2.3 %.
+/// Half the width of a confidence interval where noise is estimated from residuals, whose errors are not independent
+/// but span some spacings. With 8 and 13 a noisy sphere has 3.2 and 1.8 %, a torus 2.2 and 2.3 %.
 constexpr double noisy_confidence = 10;
 
 /// A fit over one window.

@@ -48,8 +48,8 @@ class PartConstants {
 /// The two parts of a Laplacian that the weakest link joins; nullopt if no part is joined by less than `weak_share`.
 std::optional<WeakJoint> weakestJoint(const SparseMatrix& L);
 
-/// The same for any positive definite matrix, in which the excess of a diagonal over its row joins a point to a fixed
-/// value.
+/// Finds the weakest joint of any positive definite matrix, in which the excess of a diagonal over its row joins a
+/// point to a fixed value.
 /// @param lower triangle over `points`
 std::optional<WeakJoint> weakestJoint(const LongMatrix& lower, const std::vector<int>& points);
 

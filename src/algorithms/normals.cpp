@@ -35,8 +35,8 @@ constexpr double smooth_cosine = 0.7;
 constexpr double crease_share = 0.5;
 /// If the `outward` of a closed component is smaller than this, its volume is rounding, and its mean normal decides.
 constexpr double flat_share = 1e-6;
-/// The same for an open component, whose mean normal is at least `most_mean` long: airborne scans have up to 0.024 of
-/// either sign, one view of a rabbit 0.1.
+/// If the `outward` of an open component, whose mean normal is at least `most_mean` long, is smaller than this, the
+/// mean normal decides: airborne scans have up to 0.024 of either sign, one view of a rabbit 0.1.
 constexpr double flat_share_of_open = 0.05;
 /// A part with fewer points than this share of the largest part of its component counts as joint.
 constexpr double small_part = 0.05;

@@ -63,7 +63,7 @@ struct JumpTest {
     return (static_cast<int>(more <= 0) | static_cast<int>(more * more <= most * (squared_step - along * along))) != 0;
   }
 
-  /// The same test for a surface along which the inverse range may change by `rise` from a to b.
+  /// Tests whether two pixels are joined on a surface along which the inverse range may change by `rise` from a to b.
   bool joins(double squared_step, double range_a, double range_b, double most, const Rise& rise) const {
     const double product = range_a * range_b, along = range_a - range_b;
     const double beyond = std::max({0.0, along - rise.most * product, rise.least * product - along});

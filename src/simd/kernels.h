@@ -91,9 +91,9 @@ struct PlanarOffsets {
 /// gaping, it looks open; or unknown.
 enum class StarKind { closed, tied, gaping, unknown };
 
-/// Of a closed star the link, as numbers of neighbours counterclockwise, and the circumradius of each with the next. Of
-/// a tied one all neighbours that may be in the link: first the corners of a hull counterclockwise, then others,
-/// ascending.
+/// A star found by inversion. If it is closed, it has the link, as numbers of neighbours counterclockwise, and the
+/// circumradius of each with the next. If it is tied, it has all neighbours that may be in the link: first the corners
+/// of a hull counterclockwise, then others, ascending.
 struct InvertedStar {
   /// Greatest number of vertices; larger hulls are left to delaunayStar().
   static constexpr int most = 24;

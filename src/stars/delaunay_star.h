@@ -35,15 +35,15 @@ struct StarScratch {
 };
 
 /// The star of the origin among `candidates`, in ascending order of distance in space (section 6 of docs/algorithm.md).
-/// Of candidates that project to one position the first is used; one that projects onto p is dropped. A gap of pi or
-/// more between neighbouring directions leaves the star open.
+/// If several candidates project to one position, the first is used; one that projects onto p is dropped. A gap of pi
+/// or more between neighbouring directions leaves the star open.
 ///
-/// Of cocircular points, of the two diagonals (p, b) and (a, c), the one with the smallest rank is an edge, which is
-/// the same choice in the stars of all four points.
+/// If p, a, b and c are cocircular, the diagonal (p, b) or (a, c) that has the point of smallest rank is an edge, which
+/// is the same choice in the stars of all four points.
 /// @param p rank of the origin
 void delaunayStar(const Buffer<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star);
 
-/// The same star by CGAL::Delaunay_triangulation_2. Only with TUFTED_WITH_GPL.
+/// Finds the star of delaunayStar() by CGAL::Delaunay_triangulation_2. Only with TUFTED_WITH_GPL.
 void delaunayStarCgal(const Buffer<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star);
 
 /// The star among `scratch.chosen`, which is reordered: sorts by angle, then removes link vertices by the in-circle
