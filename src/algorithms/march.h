@@ -29,9 +29,11 @@ struct MarchResult {
 /// LabelsOfSeveralSources. If faces have positions, none is below the straight line from its source.
 /// @param split whether each face is cut into four, which are not stored
 /// @param maximum the march ends there; distances above it may be too large
+/// @param known distances of vertices and midpoints from other sources; the march ends a few edges behind them, and
+/// distances above them may be too large. Empty: none
 /// @throws Cancelled when the workers' progress returns false
 MarchResult march(const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts, double maximum,
-                  const Workers& workers, const SourcePositions& sources = {});
+                  const Workers& workers, const SourcePositions& sources = {}, const std::vector<double>& known = {});
 
 /// Marches from starts of one source until a vertex is frozen. Distances of nearer ones are final except for the last
 /// step of march(), which limits them by those of neighbours; others may be too large.

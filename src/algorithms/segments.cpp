@@ -11,7 +11,11 @@
 
 #include "algorithms/clusters.h"
 #include "algorithms/connected.h"
+#include "algorithms/march.h"
+#include "algorithms/march_faces.h"
+#include "base/parallel.h"
 #include "base/stage_clock.h"
+#include "operators/check_cover.h"
 #include "tufted/check.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
@@ -57,19 +61,23 @@ class Cells {
   Cells(const Laplacian& laplacian, const Components& components, const SolverOptions& options)
       : laplacian_(laplacian),
         components_(components),
-        solver_(laplacian, {.solver = options}),
-        progress_(options.progress),
+        workers_(1, options.progress),
+        number_(numbersByFaces(laplacian.cover())),
+        split_(checkedSplit(function_name, std::nullopt, laplacian)),
+        faces_(marchFaces(laplacian.cover(), split_, workers_, number_, laplacian.positions)),
         area_(components.sums(laplacian.M)),
         has_seed_(static_cast<std::size_t>(components.count), false),
-        distance_(VectorXd::Constant(laplacian.M.size(), infinity)),
-        cell_(static_cast<std::size_t>(laplacian.M.size()), -1) {}
+        distance_(static_cast<std::size_t>(faces_.vertices) + (split_ > 0 ? faces_.edges : 0), infinity),
+        cell_(static_cast<std::size_t>(faces_.vertices), -1) {}
 
   void addSeed(int seed) {
-    const VectorXd distance = solver_.query({seed}, nullptr, progress_);
-    for (const int i : components_.points) {
-      if (!(distance[i] < distance_[i])) continue;
-      distance_[i] = distance[i];
-      cell_[i] = static_cast<int>(seeds_.size());
+    const int start = number_[seed];
+    const MarchResult found =
+        march(faces_, split_ > 0, {{start, 0, 0}}, infinity, workers_, {faces_.positions[start]}, distance_);
+    for (std::size_t i = 0; i < distance_.size(); ++i) {
+      if (!(found.distance[i] < distance_[i])) continue;
+      distance_[i] = found.distance[i];
+      if (i < cell_.size()) cell_[i] = static_cast<int>(seeds_.size());
     }
     has_seed_[components_.of[seed]] = true;
     seeds_.push_back(seed);
@@ -81,20 +89,27 @@ class Cells {
     int best = -1;
     double best_distance = 0;
     for (const int i : components_.points) {
-      if (!has_seed_[components_.of[i]] || !(distance_[i] > best_distance)) continue;
+      const double distance = distance_[number_[i]];
+      if (!has_seed_[components_.of[i]] || !(distance > best_distance)) continue;
       best = i;
-      best_distance = distance_[i];
+      best_distance = distance;
     }
     int component = -1;
     for (int c = 0; c < components_.count; ++c)
       if (!has_seed_[c] && (component < 0 || area_[c] > area_[component])) component = c;
     if (component < 0) return best;
     const double diameter = 2 * std::sqrt(area_[component] / std::numbers::pi);
-    return best < 0 || diameter > best_distance ? outermost(component) : best;
+    return best < 0 || diameter > std::ldexp(best_distance, faces_.exponent) ? outermost(component) : best;
   }
 
   const std::vector<int>& seeds() const { return seeds_; }
-  const std::vector<int>& cells() const { return cell_; }
+  /// The number of the nearest seed of each point; -1 on components without one.
+  std::vector<int> cells() const {
+    std::vector<int> cell(static_cast<std::size_t>(laplacian_.M.size()), -1);
+    for (const int i : components_.points)
+      if (has_seed_[components_.of[i]]) cell[i] = cell_[number_[i]];
+    return cell;
+  }
 
  private:
   /// The point of a component that is farthest from its centre of mass.
@@ -128,12 +143,16 @@ class Cells {
 
   const Laplacian& laplacian_;
   const Components& components_;
-  const DistanceSolver solver_;
-  const Progress& progress_;
+  const Workers workers_;
+  const std::vector<int> number_;  ///< of each point in the faces
+  const int split_;                ///< see checkedSplit()
+  const MarchFaces faces_;
   const VectorXd area_;  ///< of each component
   std::vector<bool> has_seed_;
-  VectorXd distance_;  ///< N; from the nearest seed
-  std::vector<int> cell_, seeds_;
+  /// Distance from the nearest seed of the vertices and midpoints of the faces, and that seed of the vertices.
+  std::vector<double> distance_;
+  std::vector<int> cell_;
+  std::vector<int> seeds_;
 };
 
 Segments voronoi(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
@@ -148,6 +167,7 @@ Segments voronoi(const Laplacian& laplacian, const SegmentOptions& options, cons
     result.labels = solver.nearest(sources, nullptr, options.solver.progress).source;
     return result;
   }
+  checkCover(function_name, laplacian);
   Cells cells(laplacian, components, options.solver);
   while (std::ssize(cells.seeds()) < options.count.value_or(usual_count)) {
     const int seed = cells.farthest();
