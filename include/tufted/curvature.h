@@ -10,7 +10,7 @@ namespace tufted {
 
 /// How curvature is computed.
 enum class CurvatureMethod {
-  fit,        ///< from a quadratic fitted over the tangent plane to as many rings of neighbours as the noise requires
+  fit,        ///< from a quadratic fitted over the tangent plane to some rings of neighbours
   laplacian,  ///< mean curvature only, from L x = 2 H n M; does not converge at single points of a random cloud: on a
               ///< torus and half a cylinder its error stays at 7 to 10 % of the greatest curvature however large N is
 };
@@ -18,8 +18,11 @@ enum class CurvatureMethod {
 /// Options of curvatures().
 struct CurvatureOptions {
   CurvatureMethod method = CurvatureMethod::fit;  ///< how curvature is computed
-  int threads = 0;                                ///< at most this many threads; 0: one per processor
-  Progress progress = {};                         ///< called with the fraction of the points that are begun
+  /// Rings of neighbours that every quadratic is fitted to, 0 to 100; 0: two, and more where denoising moved the
+  /// points, as the noise requires. A noisy mesh, or a noisy cloud built without denoising, wants 5 to 12.
+  int rings = 0;
+  int threads = 0;         ///< at most this many threads; 0: one per processor
+  Progress progress = {};  ///< called with the fraction of the points that are begun
 };
 
 /// Counts and timing of a call of curvatures().
@@ -46,12 +49,12 @@ struct Curvatures {
 
 /// Computes curvatures from Laplacian::positions and the neighbours in L, so that points of other sheets are not used.
 ///
-/// At each point heights over its tangent plane are fitted with weights that fall with distance, first to two rings of
-/// neighbours (four where there is noise), then to more and more, as long as the result stays within the confidence
-/// intervals of all smaller windows: wide enough for the noise, narrow enough for the surface (intersection of
-/// confidence intervals; Goldenshluger and Nemirovski 1997). Where residuals are rounding only, the first window is
-/// used. Heights are quadratic in coordinates whose length is the distance in space, so that a sphere is fitted exactly
-/// by a window of any width. Curvatures are those of the fitted surface.
+/// At each point heights over its tangent plane are fitted to two rings of neighbours, with weights that fall with
+/// distance. Where denoising moved the points (Laplacian::noise), windows of three to twelve rings are tried, and the
+/// widest is used whose result is within the confidence intervals of all smaller ones: wide enough for the noise,
+/// narrow enough for the surface (intersection of confidence intervals; Goldenshluger and Nemirovski 1997). Heights are
+/// changed in the fourth order, so that a window of any width fits a sphere exactly. Curvatures are those of the fitted
+/// surface.
 /// @param laplacian with positions, and with frames, as a cloud's, whose normals give curvatures their sign; see
 /// orientedFrames()
 /// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, active points whose

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "denoise/listed_search.h"
-#include "denoise/quadratic_fit.h"
+#include "stars/quadratic_fit.h"
 #include "stars/sheets.h"
 #include "stars/tangent_frame.h"
 

@@ -38,12 +38,13 @@ py::tuple oriented(const Laplacian& laplacian, Points normals, Points tangents, 
   }));
 }
 
-py::tuple curvature(const Laplacian& laplacian, Points normals, Points tangents, const std::string& method, int threads,
-                    const py::object& progress) {
+py::tuple curvature(const Laplacian& laplacian, Points normals, Points tangents, const std::string& method, int rings,
+                    int threads, const py::object& progress) {
   const Frames frames = framesFrom(std::move(normals), std::move(tangents), static_cast<int>(Orientation::consistent));
   CurvatureOptions options = {
       .method = chosen<CurvatureMethod>("curvature: method", method,
                                         {{"fit", CurvatureMethod::fit}, {"laplacian", CurvatureMethod::laplacian}}),
+      .rings = rings,
       .threads = threads};
   Curvatures found = run(progress, [&](const Progress& called) {
     options.progress = called;

@@ -42,7 +42,7 @@ struct HeightSums {
 struct HeightSystems {
   static constexpr int numbers = sizeof(HeightSums) / sizeof(double);
   alignas(64) double sums[numbers][kernel_packet];  ///< in the order of HeightSums
-  alignas(64) double count[kernel_packet];          ///< number of points, including one of height 0 at the origin
+  alignas(64) double count[kernel_packet];  ///< sum of weights, including 1 for a point of height 0 at the origin
 };
 
 /// The solutions of HeightSystems.
@@ -196,6 +196,10 @@ struct Kernels {
   void (*sumOffsets)(const Offsets& offsets, double unit, const int* ends, int sets, OffsetSums* sums);
   /// Sums over the offsets in the coordinates u, v and h along three axes, 3 x 3 numbers row by row.
   void (*sumHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
+  /// sumHeights() with weights (1 - d^2)^2, which fall to 0 at the distance d = 1, and with h (1 - h^2 / d^2) in place
+  /// of h: a sphere through the origin whose normal there is the third axis is then exactly a quadratic in u and v.
+  /// @returns the sum of weights
+  double (*sumWeightedHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
   /// Solves each system, bit for bit independently of the others.
   void (*solveHeights)(const HeightSystems& systems, HeightSolutions& solutions);
   /// Heights along `normal`, and the range reached from 0 over gaps of at most `gap`.

@@ -111,6 +111,35 @@ struct HeightParts {
   Part u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv, hh;
 };
 
+struct HeightPart {
+  Part u, v, h;
+};
+
+TUFTED_INLINE HeightPart heightAt(const Offsets& offsets, int i, const double* axes) {
+  const Part x = loadPart(&offsets.x[i]), y = loadPart(&offsets.y[i]), z = loadPart(&offsets.z[i]);
+  const auto along = [&](const double* axis) {
+    return x * broadcastPart(axis[0]) + y * broadcastPart(axis[1]) + z * broadcastPart(axis[2]);
+  };
+  return {along(axes), along(axes + 3), along(axes + 6)};
+}
+
+/// Adds monomials.
+/// @param wu, ..., wh those of degrees up to two, times the weight
+TUFTED_INLINE void addHeight(Part u, Part v, Part h, Part wu, Part wv, Part wuu, Part wuv, Part wvv, Part wh,
+                             HeightParts& sum) {
+  const Part uu = u * u, uv = u * v, vv = v * v;
+  sum = {sum.u + wu,          sum.v + wv,          sum.uu + wuu,        sum.uv + wuv,        sum.vv + wvv,
+         sum.uuu + wuu * u,   sum.uuv + wuu * v,   sum.uvv + wu * vv,   sum.vvv + wvv * v,   sum.uuuu + wuu * uu,
+         sum.uuuv + wuu * uv, sum.uuvv + wuu * vv, sum.uvvv + wuv * vv, sum.vvvv + wvv * vv, sum.h + wh,
+         sum.hu + wh * u,     sum.hv + wh * v,     sum.huu + wh * uu,   sum.huv + wh * uv,   sum.hvv + wh * vv,
+         sum.hh + wh * h};
+}
+
+TUFTED_INLINE void putHeights(const HeightParts& sum, double* packets) {
+  putInTurn(packets, sum.u, sum.v, sum.uu, sum.uv, sum.vv, sum.uuu, sum.uuv, sum.uvv, sum.vvv, sum.uuuu, sum.uuuv,
+            sum.uuvv, sum.uvvv, sum.vvvv, sum.h, sum.hu, sum.hv, sum.huu, sum.huv, sum.hvv, sum.hh);
+}
+
 void sumHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
   constexpr int numbers = HeightSystems::numbers;
   alignas(64) double packets[numbers * packet_size];
@@ -119,22 +148,38 @@ void sumHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
     HeightParts sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero,
                        zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
     for (int i = part; i < offsets.count; i += packet_size) {
-      const Part x = loadPart(&offsets.x[i]), y = loadPart(&offsets.y[i]), z = loadPart(&offsets.z[i]);
-      const auto along = [&](const double* axis) {
-        return x * broadcastPart(axis[0]) + y * broadcastPart(axis[1]) + z * broadcastPart(axis[2]);
-      };
-      const Part u = along(axes), v = along(axes + 3), h = along(axes + 6);
-      const Part uu = u * u, uv = u * v, vv = v * v;
-      sum = {sum.u + u,          sum.v + v,          sum.uu + uu,        sum.uv + uv,        sum.vv + vv,
-             sum.uuu + uu * u,   sum.uuv + uu * v,   sum.uvv + u * vv,   sum.vvv + vv * v,   sum.uuuu + uu * uu,
-             sum.uuuv + uu * uv, sum.uuvv + uu * vv, sum.uvvv + uv * vv, sum.vvvv + vv * vv, sum.h + h,
-             sum.hu + h * u,     sum.hv + h * v,     sum.huu + h * uu,   sum.huv + h * uv,   sum.hvv + h * vv,
-             sum.hh + h * h};
+      const auto [u, v, h] = heightAt(offsets, i, axes);
+      addHeight(u, v, h, u, v, u * u, u * v, v * v, h, sum);
     }
-    putInTurn(packets + part, sum.u, sum.v, sum.uu, sum.uv, sum.vv, sum.uuu, sum.uuv, sum.uvv, sum.vvv, sum.uuuu,
-              sum.uuuv, sum.uuvv, sum.uvvv, sum.vvvv, sum.h, sum.hu, sum.hv, sum.huu, sum.huv, sum.hvv, sum.hh);
+    putHeights(sum, packets + part);
   }
   addAcross(packets, numbers, &total.u);
+}
+
+double sumWeightedHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
+  constexpr int numbers = HeightSystems::numbers + 1;
+  const int padded = toPackets(offsets.count);  // whose zeros have weight 1, in all lanes on any processor
+  alignas(64) double packets[numbers * packet_size];
+  for (int part = 0; part < packet_size; part += part_size) {
+    const Part zero = broadcastPart(0), least = broadcastPart(1e-300);
+    HeightParts sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero,
+                       zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    Part weights = zero;
+    for (int i = part; i < padded; i += packet_size) {
+      const auto [u, v, height] = heightAt(offsets, i, axes);
+      const Part uu = u * u, vv = v * v, square = uu + vv + height * height;
+      const Part inner = max(zero, broadcastPart(1) - square), weight = inner * inner;
+      const Part h = height - height * height * height / max(least, square);
+      weights = weights + weight;
+      addHeight(u, v, h, weight * u, weight * v, weight * uu, weight * (u * v), weight * vv, weight * h, sum);
+    }
+    putHeights(sum, packets + part);
+    putInTurn(packets + HeightSystems::numbers * packet_size + part, weights);
+  }
+  double sums[numbers];
+  addAcross(packets, numbers, sums);
+  for (int i = 0; i < HeightSystems::numbers; ++i) (&total.u)[i] = sums[i];
+  return sums[HeightSystems::numbers] - (padded - offsets.count);
 }
 
 /// Solves the systems by the decomposition L D L^T.
@@ -289,10 +334,12 @@ void measureTriangleFans(const TriangleFans& given) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,          rankValues,   extent,           sumOffsets,
-                                sumHeights,          solveHeights, connectedHeights, connectedHeightsAlong,
-                                keepConnected,       findSmallest, project,          measureTriangleFans,
-                                wrapInvertedPackets, wrapPixels,   fitSquares<2>,    fitSquares<3>,
-                                joinPixels,          spacingsOf,   squaresWithin};
+const Kernels TUFTED_KERNELS = {takeWithin,          rankValues,          extent,
+                                sumOffsets,          sumHeights,          sumWeightedHeights,
+                                solveHeights,        connectedHeights,    connectedHeightsAlong,
+                                keepConnected,       findSmallest,        project,
+                                measureTriangleFans, wrapInvertedPackets, wrapPixels,
+                                fitSquares<2>,       fitSquares<3>,       joinPixels,
+                                spacingsOf,          squaresWithin};
 
 }  // namespace tufted

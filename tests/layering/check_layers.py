@@ -24,7 +24,7 @@ ROOMS = {
     "denoise": ["base", "simd", "neighbors", "stars", "depth_image"],
     "pipeline": ["base", "cover", "neighbors", "stars", "depth_image", "denoise", "direct"],
     "operators": ["base", "cover", "stars"],
-    "algorithms": ["base", "cover", "neighbors", "operators"],
+    "algorithms": ["base", "simd", "cover", "neighbors", "stars", "operators"],
     "view": [],
     "pcl": [],
     "python": [],

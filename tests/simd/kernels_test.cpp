@@ -10,10 +10,10 @@
 
 #include "base/buffer.h"
 #include "cover/geometry.h"
-#include "denoise/quadratic_fit.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
 #include "stars/offsets.h"
+#include "stars/quadratic_fit.h"
 #include "stars/tangent_frame.h"
 #include "tufted/laplacian.h"
 #include "tufted/scan_structure.h"
@@ -47,6 +47,9 @@ TEST(Kernels, HaveTheSameBitsOnAnyProcessor) {
     HeightSums heights{}, portable_heights{};
     kernels().sumHeights(offsets, axes.data(), heights);
     portableKernels().sumHeights(offsets, axes.data(), portable_heights);
+    EXPECT_TRUE(std::equal(&heights.u, &heights.u + HeightSystems::numbers, &portable_heights.u));
+    const double weight = kernels().sumWeightedHeights(offsets, axes.data(), heights);
+    EXPECT_EQ(weight, portableKernels().sumWeightedHeights(offsets, axes.data(), portable_heights));
     EXPECT_TRUE(std::equal(&heights.u, &heights.u + HeightSystems::numbers, &portable_heights.u));
     const Eigen::Vector3d x(0.6, 0.8, 0.1), y(-0.8, 0.6, 0.2);
     PlanarOffsets planar, portable;

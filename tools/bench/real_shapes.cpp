@@ -1,5 +1,9 @@
 #include "bench/real_shapes.h"
 
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/subdivision_method_3.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -135,6 +139,34 @@ RealShape realShape(const std::filesystem::path& path, int eigenvalues) {
   shape.area = oracles::surfaceArea(shape.mesh.points, shape.mesh.triangles);
   if (eigenvalues > 0) shape.eigenvalues = eigenvaluesOf(shape.mesh, eigenvalues);
   return shape;
+}
+
+RealShape smoothed(const RealShape& shape, int faces) {
+  using Kernel = CGAL::Simple_cartesian<double>;
+  CGAL::Surface_mesh<Kernel::Point_3> fine;
+  using Vertex = decltype(fine)::Vertex_index;
+  RealShape result{shape.name, {}, 0, {}};
+  const shapes::Mesh& mesh = shape.mesh;
+  for (const auto& p : mesh.points.rowwise()) fine.add_vertex({p[0], p[1], p[2]});
+  for (const auto& t : mesh.triangles.rowwise())
+    if (fine.add_face(Vertex(t[0]), Vertex(t[1]), Vertex(t[2])) == fine.null_face()) return result;
+  while (static_cast<int>(fine.number_of_faces()) < faces)
+    CGAL::Subdivision_method_3::Loop_subdivision(fine, CGAL::parameters::number_of_iterations(1));
+  result.mesh.points.resize(fine.number_of_vertices(), 3);
+  result.mesh.triangles.resize(fine.number_of_faces(), 3);
+  for (const Vertex v : fine.vertices()) {
+    const Kernel::Point_3& p = fine.point(v);
+    result.mesh.points.row(v) << p.x(), p.y(), p.z();
+  }
+  Eigen::Index row = 0;
+  for (const auto f : fine.faces()) {
+    int corner = 0;
+    for (const Vertex v : fine.vertices_around_face(fine.halfedge(f)))
+      result.mesh.triangles(row, corner++) = static_cast<int>(v);
+    ++row;
+  }
+  result.area = oracles::surfaceArea(result.mesh.points, result.mesh.triangles);
+  return result;
 }
 
 shapes::Cloud sampleOf(const RealShape& shape, int points, double noise, std::uint64_t seed) {

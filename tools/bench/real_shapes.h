@@ -35,6 +35,10 @@ struct RealShape {
 /// @throws IoError
 RealShape realShape(const std::filesystem::path& path, int eigenvalues);
 
+/// A smooth surface near the mesh of a shape, by Loop's subdivision, in at least `faces` triangles; no triangles if the
+/// mesh is not manifold.
+RealShape smoothed(const RealShape& shape, int faces);
+
 /// Random points of a shape, uniform by area, with noise in all directions, and the exact normals.
 /// @param noise standard deviation in spacings, the root of the area per point
 shapes::Cloud sampleOf(const RealShape& shape, int points, double noise, std::uint64_t seed);

@@ -1,4 +1,7 @@
 // tufted_surface: how well noise is told from detail on real shapes and scans. See --help.
+#include <CGAL/Monge_via_jet_fitting.h>
+#include <CGAL/Simple_cartesian.h>
+
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -20,6 +23,7 @@
 #include "bench/real_scans.h"
 #include "bench/real_shapes.h"
 #include "oracles/oracles.h"
+#include "tufted/curvature.h"
 #include "tufted/denoise.h"
 #include "tufted/io/read.h"
 #include "tufted/laplacian.h"
@@ -168,6 +172,66 @@ void printNormals(const Settings& settings) {
   }
 }
 
+/// Median and 90th percentile of the error of both principal curvatures, over the median of their size.
+std::array<double, 2> curvatureError(const Eigen::MatrixX2d& found, const Eigen::MatrixX2d& exact) {
+  Buffer<double> errors, sizes;
+  for (Eigen::Index i = 0; i < exact.rows(); ++i) {
+    errors.push_back((found.row(i) - exact.row(i)).norm());
+    sizes.push_back(exact.row(i).norm());
+  }
+  const auto last = errors.begin() + std::ssize(errors) * 9 / 10;
+  std::nth_element(errors.begin(), last, errors.end());
+  const double size = medianOf(std::move(sizes)), most = *last / size;
+  return {medianOf(std::move(errors)) / size, most};
+}
+
+/// The principal curvatures at a vertex of a fine mesh, descending, from a polynomial of degree 4 that CGAL fits to the
+/// nearest vertices.
+Eigen::RowVector2d exactCurvatures(const NearestPoints& vertices, const Eigen::RowVector3d& place,
+                                   const Eigen::RowVector3d& normal) {
+  using Kernel = CGAL::Simple_cartesian<double>;
+  constexpr int fitted = 30, degree = 4;
+  std::vector<Kernel::Point_3> points;
+  for (const std::size_t v : vertices.of(place, fitted)) {
+    const auto q = vertices.points().row(static_cast<Eigen::Index>(v));
+    points.emplace_back(q[0], q[1], q[2]);
+  }
+  auto form = CGAL::Monge_via_jet_fitting<Kernel>()(points.begin(), points.end(), degree, 2);
+  form.comply_wrt_given_normal({normal[0], normal[1], normal[2]});
+  return {-form.principal_curvatures(1), -form.principal_curvatures(0)};
+}
+
+/// Compares curvatures of points with those of the smooth surface that they are taken from.
+void printCurvatures(const Settings& settings) {
+  constexpr int fine_faces = 400000;
+  std::printf("| shape | points | noise | median error | 90 %% below | rings | us per point |\n");
+  std::printf("|---|---|---|---|---|---|---|\n");
+  for (const auto& [path, half] : shapeFiles(settings.real / "shapes")) {
+    if (!settings.asksFor(half)) continue;
+    const RealShape shape = smoothed(realShape(path, 0), fine_faces);
+    if (shape.mesh.triangles.rows() == 0) continue;
+    const NearestPoints vertices(shape.mesh.points);
+    for (const int points : settings.points) {
+      const shapes::Cloud truth = sampleOf(shape, points, 0, settings.first_seed);
+      Eigen::MatrixX2d exact(points, 2);
+      for (int i = 0; i < points; ++i)
+        exact.row(i) = exactCurvatures(vertices, truth.points.row(i), truth.normals.row(i));
+      for (const double noise : settings.noise) {
+        const shapes::Cloud cloud = sampleOf(shape, points, noise, settings.first_seed);
+        const Laplacian laplacian = pointCloudLaplacian(cloud.points);
+        Frames frames = laplacian.frames;
+        for (int i = 0; i < points; ++i)
+          if (frames.normals.row(i).dot(cloud.normals.row(i)) < 0) frames.normals.row(i) *= -1;
+        const Curvatures found = curvatures(laplacian, frames, {.threads = 1});
+        const auto [median, most] = curvatureError(found.principal, exact);
+        std::printf("| %s | %d | %g | %.3f | %.3f | %.1f | %.1f |\n", shape.name.c_str(), points, noise, median, most,
+                    found.report.mean_rings, 1e6 * found.report.seconds / points);
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
 constexpr const char* prediction_columns = "points | as measured | denoised | moved |\n|---|---|---|---|---|\n";
 
 void printRow(const std::string& name, Eigen::Index points, const Prediction& found) {
@@ -225,8 +289,9 @@ int main(int argc, char** argv) {
   namespace bench = tufted::bench;
   bench::Settings settings;
   const std::map<std::string, void (*)(const bench::Settings&)> tables = {
-      {"shapes", bench::printShapes}, {"vertices", bench::printVertices}, {"hidden", bench::printHidden},
-      {"second", bench::printSecond}, {"images", bench::printImages},     {"normals", bench::printNormals}};
+      {"shapes", bench::printShapes},        {"vertices", bench::printVertices}, {"hidden", bench::printHidden},
+      {"second", bench::printSecond},        {"images", bench::printImages},     {"normals", bench::printNormals},
+      {"curvatures", bench::printCurvatures}};
   const std::map<std::string, bench::Half> halves = {
       {"choosing", bench::Half::choosing}, {"held-out", bench::Half::held_out}, {"both", bench::Half::both}};
   std::vector<std::string> known, names;

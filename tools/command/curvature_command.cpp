@@ -123,4 +123,6 @@ void addCurvature(CLI::App& app, Run& run) {
   addOrienting(*command, settings->orienting);
   addChoice(*command, "--method", settings->options.method, methods,
             "fit: a quadratic surface at each point; laplacian: mean curvature only, less accurate (fit)");
+  addNumber(*command, "--rings", settings->options.rings, 1, 100,
+            "Rings of neighbours in each fit (two, and more where noise was removed)");
 }

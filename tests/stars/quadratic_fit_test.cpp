@@ -1,4 +1,4 @@
-#include "denoise/quadratic_fit.h"
+#include "stars/quadratic_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -59,6 +59,22 @@ TEST(HeightFit, OfNoiseHasItsVariance) {
   const double sigma = 0.02;
   const HeightFit fit = fitAll(surface(4000, [&](int, double u, double) { return u * u + sigma * random.normal(); }));
   EXPECT_NEAR(std::sqrt(fit.variance) / sigma, 1, 0.05);
+}
+
+TEST(HeightFit, WithWeightsOfASphereIsExactHoweverWide) {
+  const auto sphere = [](int, double u, double v) { return 1.5 - std::sqrt(2.25 - u * u - v * v); };
+  for (const int n : {20, 21, 200}) {
+    OffsetBuffer offsets;
+    const Points points = surface(n, sphere);
+    offsets.take(points, 0, allOthers(points));
+    const double radius = 2;
+    const HeightFit fit = fitHeights(weightedMoments(offsets.view(), Eigen::Vector3d::UnitZ(), radius));
+    ASSERT_TRUE(fit.is_valid);
+    for (const int slope : {0, 1, 2}) EXPECT_NEAR(fit.coefficient[slope], 0, 1e-9) << n;
+    EXPECT_NEAR(2 * fit.coefficient[3] / radius, 1 / 1.5, 1e-9);
+    EXPECT_NEAR(fit.coefficient[4], 0, 1e-9);
+    EXPECT_NEAR(2 * fit.coefficient[5] / radius, 1 / 1.5, 1e-9);
+  }
 }
 
 TEST(HeightFit, OfFewPointsOrPointsOfOneLineIsNone) {

@@ -15,23 +15,28 @@ struct HeightFit {
   std::array<double, 6> coefficient{};  ///< of 1, u, v, u^2, u v, v^2, in units of the fit radius
   double height = 0;                    ///< height of the surface over p, along the normal
   double leverage = 1;                  ///< variance of `height` over that of the noise of each point
-  /// Variance of the residuals: their sum of squares over m - 6, for m points. Infinite without a fit.
+  /// Variance of the residuals, without weights: their sum of squares over m - 6, for m points. Infinite without a fit.
   double variance = std::numeric_limits<double>::infinity();
-  bool is_valid = false;  ///< false with fewer than 9 points, p included, or if they lie on a conic
+  double least_pivot = 0;  ///< of the normal equations; 1 / least_pivot bounds variances, in units of the fit radius
+  bool is_valid = false;   ///< false with fewer than 9 points, p included, or if they lie on a conic
 };
 
 /// The sums from which a HeightFit is computed.
 struct HeightMoments {
   HeightSums sums{};      ///< in units of the fit radius
   int count = 0;          ///< number of points, p included
+  double weight = 0;      ///< sum of their weights
   double fit_radius = 0;  ///< radius of the neighbourhood
 };
 
 /// The sums for p and its neighbours.
-/// @param normal of the plane, unit length
+/// @param normal of the plane, unit length; its coordinates are along tangentOf(normal) and the cross product of both
 HeightMoments heightMoments(const Offsets& neighbors, const Eigen::Vector3d& normal, double fit_radius);
+/// The sums for curvature, see Kernels::sumWeightedHeights.
+HeightMoments weightedMoments(const Offsets& neighbors, const Eigen::Vector3d& normal, double fit_radius);
 
 /// Fits quadratics by least squares, each bit for bit independent of the others.
 void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fits);
+HeightFit fitHeights(const HeightMoments& moments);
 
 }  // namespace tufted
