@@ -31,7 +31,7 @@ constexpr std::array<int, 5> window_rings = {2, 3, 5, 8, 12};
 constexpr int least_noisy_rings = 3;
 /// A window with more points than this is not used if a narrower one is; 12 rings of an even sampling have fewer.
 constexpr int most_points = 800;
-/// Half the width of a confidence interval, in bounds on the standard deviation of a second derivative. With 0.5, 0.7
+/// Half the width of a confidence interval, in standard deviations of a second derivative. With 0.5, 0.7
 /// and 1 real shapes with noise of 0.3 spacings have errors of 56, 58 and 60 %, a noisy sphere of 4.1, 2.7 and 1.9 %.
 constexpr double confidence = 0.7;
 /// Where the fitted surface is steeper than this over its plane, the plane is turned to be tangent and the heights are
@@ -55,7 +55,7 @@ struct Window {
   Eigen::Array3d second() const {
     return Eigen::Array3d(2 * fit.coefficient[3], fit.coefficient[4], 2 * fit.coefficient[5]) / radius;
   }
-  /// A bound on the standard deviation of each, for independent errors of the heights.
+  /// About the standard deviation of each, for independent errors of the heights.
   double deviation(double error) const { return 2 * error / radius / radius / std::sqrt(fit.least_pivot); }
 };
 
@@ -234,6 +234,9 @@ Curvatures curvatures(const Laplacian& laplacian, const Frames& frames, const Cu
   if (options.rings < 0 || options.rings > most_rings)
     throw InvalidInput(std::string(function_name) + ": rings = " + std::to_string(options.rings) +
                        ", must lie in [0, " + std::to_string(most_rings) + "]");
+  if (options.rings > 0 && options.method != CurvatureMethod::fit)
+    throw InvalidInput(std::string(function_name) + ": rings = " + std::to_string(options.rings) +
+                       ", must be 0 without CurvatureMethod::fit");
   const Stopwatch watch;
   const Workers workers(options.threads, options.progress);
   const bool fits = options.method == CurvatureMethod::fit;

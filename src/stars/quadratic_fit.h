@@ -17,8 +17,10 @@ struct HeightFit {
   double leverage = 1;                  ///< variance of `height` over that of the noise of each point
   /// Variance of the residuals, without weights: their sum of squares over m - 6, for m points. Infinite without a fit.
   double variance = std::numeric_limits<double>::infinity();
-  double least_pivot = 0;  ///< of the normal equations; 1 / least_pivot bounds variances, in units of the fit radius
-  bool is_valid = false;   ///< false with fewer than 9 points, p included, or if they lie on a conic
+  /// Of the normal equations: the variance of a coefficient is about that of the noise, in units of the fit radius,
+  /// over this.
+  double least_pivot = 0;
+  bool is_valid = false;  ///< false with fewer than 9 points, p included, or if they lie on a conic
 };
 
 /// The sums from which a HeightFit is computed.

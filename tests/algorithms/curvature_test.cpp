@@ -254,6 +254,8 @@ TEST(Curvature, RefusesWhatDoesNotFit) {
             "curvatures: threads = -1, must be >= 0");
   EXPECT_EQ(support::refusal([&] { curvatures(laplacian, {.rings = 101}); }),
             "curvatures: rings = 101, must lie in [0, 100]");
+  EXPECT_EQ(support::refusal([&] { curvatures(laplacian, {.method = CurvatureMethod::laplacian, .rings = 5}); }),
+            "curvatures: rings = 5, must be 0 without CurvatureMethod::fit");
   EXPECT_THROW(curvatures(laplacian, {.progress = [](std::string_view, double) { return false; }}), Cancelled);
 }
 

@@ -103,6 +103,7 @@ TEST_F(Normals, DecideOnTheSignOfCurvature) {
   EXPECT_EQ(values("laplacian/curvature.npy").size(), 2000u);
   EXPECT_FALSE(std::filesystem::exists(in("laplacian/principal_directions.npy")));
   expectRefusal({"curvature", file, "--method", "laplacien"}, "did you mean `laplacian`?");
+  expectRefusal({"curvature", file, "--method", "laplacian", "--rings", "5"}, "--rings applies to --method fit");
 }
 
 TEST_F(Normals, OfPointsThatTakeNoPartHaveNoCurvatureToSumUp) {

@@ -54,6 +54,7 @@ struct Settings {
 
 void check(Settings& settings, const Operator& source) {
   settings.source.shown = {{"curvature", settings.fits() ? 4 : 1}};
+  if (settings.options.rings > 0 && !settings.fits()) throw tufted::InvalidInput("--rings applies to --method fit");
   checkFrames(source);
 }
 

@@ -25,7 +25,7 @@ class Shape:
         """Curvature at each point, positive where the surface bends away from the normal of normals().
 
         method: "fit" of a quadratic to rings of neighbours, or "laplacian": mean curvature only.
-        rings: rings of neighbours in each fit, 1 to 100; None: two, and more where denoising moved the points. A noisy
+        rings: of neighbours in each "fit", 1 to 100; None: two, and more where denoising moved the points. A noisy
             mesh, or a noisy cloud built without denoising, wants 5 to 12.
         Returns mean (N, 1/length), gaussian (N, 1/length^2), principal (N x 2, k1 >= k2, 1/length) and directions (N x
         2 x 3, of k1 and k2); all but the first are empty with "laplacian".
