@@ -18,9 +18,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Labels between two calls of `progress`.
 constexpr std::int64_t between_reports = 65536;
-/// A march goes this many times the longest edge beyond where other sources are nearer. Each edge more reduces the
-/// error of its own distances to a fifteenth; with 4 they are off by 1e-7 of the largest.
-constexpr double behind_known = 4;
 /// A distance may be shorter than the straight line by this part because of rounding.
 constexpr double straight_rounding = 1e-13;
 
@@ -173,7 +170,7 @@ class March {
     if (beyond <= 0 && behind <= 0) return true;
     double longest = 0;
     faces_.around(labels_.vertexOf(a), [&](const MarchTriangle& t) { longest = std::max({longest, t.ab, t.ac}); });
-    return beyond <= longest && behind <= behind_known * longest;
+    return beyond <= longest && behind <= march_reach * longest;
   }
 
   void offer(int label, double distance) {

@@ -12,6 +12,10 @@
 
 namespace tufted {
 
+/// A source goes on from a vertex only if it is farther than the nearest source by at most this many times the longest
+/// edge there. Each edge more reduces the error to a fifteenth.
+constexpr double march_reach = 4;
+
 /// The labels of a single source. Vertex and label have the same number.
 class LabelsOfOneSource {
  public:
@@ -124,10 +128,7 @@ class LabelsOfSeveralSources {
     bool is_frozen = false, goes_on = true;
   };
 
-  /// A source goes on from a vertex only if it is farther than the nearest source by at most this many times the
-  /// longest edge there. Each edge more reduces the error to a fifteenth.
-  static constexpr double reach = 4;
-  /// Nor does a source go on where this many others are nearer. On grids, squares and tori, with 3, 2 of 213,600
+  /// A source does not go on where this many others are nearer. On grids, squares and tori, with 3, 2 of 213,600
   /// distances differ by up to 3e-6 from the least of single marches; with 5 none differs by 1e-9.
   static constexpr int most_nearer = 5;
   /// Labels of one source per block of memory, for the cache.
@@ -151,7 +152,8 @@ class LabelsOfSeveralSources {
       least = std::min(least, labels_[other].distance);
       ++nearer;
     }
-    return nearer == 0 || (nearer < most_nearer && own.distance <= least + reach * labels_[own.vertex].longest_edge);
+    return nearer == 0 ||
+           (nearer < most_nearer && own.distance <= least + march_reach * labels_[own.vertex].longest_edge);
   }
 
   int freeLabel(int source, MarchHeap& heap) {
