@@ -123,8 +123,8 @@ TUFTED_INLINE HeightPart heightAt(const Offsets& offsets, int i, const double* a
   return {along(axes), along(axes + 3), along(axes + 6)};
 }
 
-/// Adds monomials.
-/// @param wu, ..., wh those of degrees up to two, times the weight
+/// Adds the monomials of a point to the sums.
+/// @param wu, wv, wuu, wuv, wvv, wh the products of u, v, u^2, u v, v^2 and h with the weight of the point
 TUFTED_INLINE void addHeight(Part u, Part v, Part h, Part wu, Part wv, Part wuu, Part wuv, Part wvv, Part wh,
                              HeightParts& sum) {
   const Part uu = u * u, uv = u * v, vv = v * v;

@@ -17,8 +17,8 @@ struct HeightFit {
   double leverage = 1;                  ///< variance of `height` over that of the noise of each point
   /// Variance of the residuals, without weights: their sum of squares over m - 6, for m points. Infinite without a fit.
   double variance = std::numeric_limits<double>::infinity();
-  /// Of the normal equations: the variance of a coefficient is about that of the noise, in units of the fit radius,
-  /// over this.
+  /// The least pivot of the normal equations. The noise of the heights has a variance, in units of the fit radius; that
+  /// of each coefficient is about this variance over the least pivot.
   double least_pivot = 0;
   bool is_valid = false;  ///< false with fewer than 9 points, p included, or if they lie on a conic
 };
