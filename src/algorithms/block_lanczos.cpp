@@ -1,12 +1,12 @@
 #include "algorithms/block_lanczos.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "algorithms/tall_matrix.h"
+#include "base/symmetric_eigen.h"
 
 namespace tufted {
 namespace {
@@ -218,7 +218,7 @@ class BlockLanczos {
     values_ = T_.diagonal().head(size_);
     vectors_ = MatrixXd::Identity(size_, size_);
     if (rest == 0) return;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(T_.block(locked_, locked_, rest, rest));
+    const auto solver = symmetricEigen(MatrixXd(T_.block(locked_, locked_, rest, rest)));
     values_.tail(rest) = solver.eigenvalues().reverse();
     vectors_.bottomRightCorner(rest, rest) = solver.eigenvectors().rowwise().reverse();
   }

@@ -1,8 +1,6 @@
 // Spectral conformal parameterisation (Mullen, Tong, Alliez, Desbrun 2008).
 #include "algorithms/conformal_map.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -13,6 +11,7 @@
 #include "algorithms/chart_metric.h"
 #include "algorithms/linear_system.h"
 #include "base/number_text.h"
+#include "base/symmetric_eigen.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -148,6 +147,28 @@ MatrixXcd firstColumns(const Points& positions, const std::vector<int>& points, 
   return start;
 }
 
+/// A unit eigenvector and its eigenvalue.
+struct Eigenpair {
+  double value;
+  VectorXcd vector;
+};
+
+/// The largest eigenvalue of a Hermitian matrix, by the real matrix of twice the size, which has each eigenvalue twice.
+/// The largest entry of the vector is real and positive.
+Eigenpair largestPair(const MatrixXcd& hermitian) {
+  const Eigen::Index n = hermitian.rows();
+  Eigen::MatrixXd real(2 * n, 2 * n);
+  real << hermitian.real(), -hermitian.imag(), hermitian.imag(), hermitian.real();
+  const auto solver = symmetricEigen(real);
+  const Eigen::VectorXd last = solver.eigenvectors().col(2 * n - 1);
+  VectorXcd vector(n);
+  for (Eigen::Index i = 0; i < n; ++i) vector[i] = {last[i], last[n + i]};
+  Eigen::Index largest = 0;
+  vector.cwiseAbs().maxCoeff(&largest);
+  vector *= std::conj(vector[largest]) / std::abs(vector[largest]);
+  return {solver.eigenvalues()[2 * n - 1], vector};
+}
+
 }  // namespace
 
 Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, const Chart& chart,
@@ -170,8 +191,14 @@ Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, con
   };
   const auto orthonormal = [&](MatrixXcd x) {
     deflate(x);
-    for (int c = 0; c < x.cols(); ++c) x.col(c).stableNormalize();
-    return MatrixXcd(Eigen::HouseholderQR<MatrixXcd>(x).householderQ() * MatrixXcd::Identity(x.rows(), x.cols()));
+    for (int c = 0; c < columns; ++c) {
+      for (int pass = 0; pass < 2; ++pass) {  // the second removes what rounding has left
+        x.col(c).stableNormalize();
+        for (int k = 0; k < c; ++k) x.col(c) -= x.col(k).dot(x.col(c)) * x.col(k);
+      }
+      x.col(c).stableNormalize();
+    }
+    return x;
   };
   MatrixXcd x = orthonormal(root.asDiagonal() * firstColumns(positions, points, rim, exponent, columns));
   double least = std::numeric_limits<double>::infinity();
@@ -189,13 +216,17 @@ Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, con
       for (int c = 0; c < columns; ++c)
         image(k, c) = root[k] * Complex(y(2 * rim.points[k], c), y(2 * rim.points[k] + 1, c));
     deflate(image);
-    const MatrixXcd small = x.adjoint() * image;
-    const Eigen::SelfAdjointEigenSolver<MatrixXcd> ritz((small + small.adjoint()) / 2);
-    const double theta = ritz.eigenvalues()[columns - 1];
-    const VectorXcd weights = ritz.eigenvectors().col(columns - 1);
+    MatrixXcd small(columns, columns);
+    for (int i = 0; i < columns; ++i)
+      for (int j = 0; j < columns; ++j) small(i, j) = x.col(i).dot(image.col(j));
+    const auto [theta, weights] = largestPair((small + small.adjoint()) / 2);
     // A complex factor only scales and rotates the map; if the eigenvalue is near 0, rounding rotates it from step to
     // step.
-    const VectorXcd vector = x * weights, turned = image * weights;
+    VectorXcd vector = VectorXcd::Zero(x.rows()), turned = vector;
+    for (int c = 0; c < columns; ++c) {
+      vector += weights[c] * x.col(c);
+      turned += weights[c] * image.col(c);
+    }
     const Complex factor = vector.dot(turned);
     const double residual = (turned - factor * vector).norm() / std::abs(factor);
     idle = residual <= least / 2 ? 0 : idle + 1;
@@ -205,7 +236,8 @@ Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, con
       report.residual = std::max(report.residual, residual);
       Eigen::MatrixX2d uv(n, 2);
       for (int i = 0; i < n; ++i) {
-        const Complex z = (y.row(2 * i).cast<Complex>() + Complex(0, 1) * y.row(2 * i + 1).cast<Complex>()) * weights;
+        Complex z = 0;
+        for (int c = 0; c < columns; ++c) z += weights[c] * Complex(y(2 * i, c), y(2 * i + 1, c));
         uv.row(i) << z.real() / theta, z.imag() / theta;
       }
       return uv;
@@ -214,7 +246,7 @@ Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, con
       throw SolverFailure(std::string(function) + ": the residual of the eigenvector is " + numberText(residual) +
                           " after " + std::to_string(iteration) + " iterations, must be at most " +
                           numberText(most_residual));
-    x = orthonormal(image * ritz.eigenvectors());
+    x = orthonormal(image);
   }
 }
 

@@ -1,7 +1,6 @@
 // Curvature of fitted heights; where there is noise, in windows chosen by the intersection of confidence intervals.
 #include "tufted/curvature.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 #include "algorithms/check_frames.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
+#include "base/symmetric_eigen.h"
 #include "operators/rings.h"
 #include "stars/offsets.h"
 #include "stars/quadratic_fit.h"
@@ -162,7 +162,7 @@ void setCurvatures(int p, const Window& window, Curvatures& result) {
   const Eigen::Array3d derivatives = window.second() / -length;  // positive where the surface falls on all sides
   Eigen::Matrix2d second;
   second << derivatives[0], derivatives[1], derivatives[1], derivatives[2];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(second);
+  const auto solver = symmetricEigen(second);
   const Eigen::RowVector3d normal = window.normal, x = tangentOf(window.normal), y = normal.cross(x);
   const Eigen::Vector2d k = solver.eigenvalues();  // ascending
   // Adding 0 turns -0 into 0.

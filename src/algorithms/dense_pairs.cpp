@@ -1,9 +1,10 @@
 #include "algorithms/dense_pairs.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "base/symmetric_eigen.h"
 
 namespace tufted {
 namespace {
@@ -41,7 +42,7 @@ std::optional<Eigenpairs> densePairs(const Eigenproblem& problem, Index wanted) 
   const VectorXd scale = problem.mass(points).cwiseSqrt().cwiseInverse();
   S = scale.asDiagonal() * S * scale.asDiagonal();
   if (!S.allFinite()) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(S);
+  const auto solver = symmetricEigen(S);
   if (solver.info() != Eigen::Success) return std::nullopt;
   S.resize(0, 0);
   Eigenpairs pairs{solver.eigenvalues().segment(problem.nulls(), wanted), MatrixXd::Zero(L.rows(), wanted), {}};

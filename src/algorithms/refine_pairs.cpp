@@ -1,10 +1,9 @@
 #include "algorithms/refine_pairs.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "algorithms/tall_matrix.h"
+#include "base/symmetric_eigen.h"
 
 namespace tufted {
 namespace {
@@ -27,16 +26,9 @@ Index countLow(const VectorXd& values) {
   return low;
 }
 
-bool orthonormalize(const VectorXd& mass, const Workers& workers, Eigen::Ref<MatrixXd> x) {
-  const Eigen::LLT<MatrixXd> gram(innerProducts(x, mass, x, workers));
-  if (gram.info() != Eigen::Success) return false;
-  multiplyInPlace(x, gram.matrixU().solve(MatrixXd::Identity(x.cols(), x.cols())), workers);
-  return true;
-}
-
 /// Eigenpairs of a matrix that is symmetric up to rounding.
 Eigen::SelfAdjointEigenSolver<MatrixXd> decompose(const MatrixXd& products) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>((products + products.transpose()) / 2);
+  return symmetricEigen(MatrixXd((products + products.transpose()) / 2));
 }
 
 }  // namespace

@@ -208,18 +208,16 @@ void measure(const Eigenproblem& problem, const SpectrumOptions& options, Spectr
   SpectrumReport& report = spectrum.report;
   const Progress silent;
   const Workers workers(1, silent);
-  const auto innerProductsOfPairs = [&] {
-    MatrixXd gram = innerProducts(spectrum.vectors, problem.mass, spectrum.vectors, workers);
+  const auto measureOrthogonality = [&] {
+    const MatrixXd gram = innerProducts(spectrum.vectors, problem.mass, spectrum.vectors, workers);
     report.orthogonality =
         (gram - MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    return gram;
   };
-  const MatrixXd gram = innerProductsOfPairs();
+  measureOrthogonality();
   // Weights of very different sizes, as on a thin plate, cost digits; Gram-Schmidt restores orthogonality.
   if (report.orthogonality > large_residual && report.orthogonality < 1e-3) {
-    const Eigen::LLT<MatrixXd> factor(gram);
-    factor.matrixU().solveInPlace<Eigen::OnTheRight>(spectrum.vectors);
-    innerProductsOfPairs();
+    orthonormalize(problem.mass, workers, spectrum.vectors);
+    measureOrthogonality();
   }
   if (!(report.orthogonality <= large_residual))
     throw SolverFailure("spectrum: X^T M X differs from the identity by " + numberText(report.orthogonality) +

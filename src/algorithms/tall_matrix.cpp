@@ -1,5 +1,6 @@
 #include "algorithms/tall_matrix.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <vector>
 
@@ -89,6 +90,13 @@ void multiplyInto(const Eigen::Ref<const MatrixXd>& X, const MatrixXd& C, Eigen:
 
 void multiplyInPlace(Eigen::Ref<MatrixXd> X, const MatrixXd& C, const Workers& workers) {
   multiplyInto(X, C, X.leftCols(C.cols()), workers);
+}
+
+bool orthonormalize(const Eigen::VectorXd& mass, const Workers& workers, Eigen::Ref<MatrixXd> X) {
+  const Eigen::LLT<MatrixXd> gram(innerProducts(X, mass, X, workers));
+  if (gram.info() != Eigen::Success) return false;
+  multiplyInPlace(X, gram.matrixU().solve(MatrixXd::Identity(X.cols(), X.cols())), workers);
+  return true;
 }
 
 }  // namespace tufted

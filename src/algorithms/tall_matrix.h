@@ -24,4 +24,8 @@ void multiplyInto(const Eigen::Ref<const Eigen::MatrixXd>& X, const Eigen::Matri
 /// Computes X = X C, where C has no more columns than X; further columns of X do not change.
 void multiplyInPlace(Eigen::Ref<Eigen::MatrixXd> X, const Eigen::MatrixXd& C, const Workers& workers);
 
+/// Changes X so that X^T diag(mass) X is the identity, by the Cholesky factor of this product.
+/// @return false, and X as it was, if columns are dependent
+bool orthonormalize(const Eigen::VectorXd& mass, const Workers& workers, Eigen::Ref<Eigen::MatrixXd> X);
+
 }  // namespace tufted

@@ -1,5 +1,4 @@
 // meshFrames(): tangent frames of a mesh's vertices.
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/symmetric_eigen.h"
 #include "stars/tangent_frame.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -62,7 +62,7 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
     const double scale = moments[i].trace();
     if (scale > 0) {
-      normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments[i] / scale).eigenvectors().col(2);
+      normal = symmetricEigen(Eigen::Matrix3d(moments[i] / scale)).eigenvectors().col(2);
       if (normal.dot(sums.row(i)) < 0) normal = -normal;
     }
     frames.normals.row(i) = normal;

@@ -1,10 +1,10 @@
 #include "operators/slope_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "base/symmetric_eigen.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {
@@ -86,7 +86,7 @@ double SlopeFitter::findEdges(int p) {
 void SlopeFitter::choosePlane(int p) {
   if (options_.planes == Planes::given) return;
   const Eigen::Matrix3Xd centered = edges_.colwise() - mean_;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(secondMoment<3>(centered));
+  const auto solver = symmetricEigen(secondMoment<3>(centered));
   const Eigen::Vector3d& spreads = solver.eigenvalues();  // ascending
   const Eigen::Vector3d given = frames_.normals.row(p).transpose(), along = solver.eigenvectors().col(2);
   Eigen::Vector3d normal = solver.eigenvectors().col(0);
@@ -111,7 +111,7 @@ bool SlopeFitter::fitSlopes(int p, double scale) {
     const Eigen::Vector3d edge = edges_.col(k) - origin;
     edges.col(k) << edge.dot(x), edge.dot(y);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(secondMoment<2>(edges));
+  const auto solver = symmetricEigen(secondMoment<2>(edges));
   const Eigen::Vector2d& spreads = solver.eigenvalues();  // ascending
   const double added = options_.regularization / scale / scale;
   Eigen::Vector2d inverse = Eigen::Vector2d::Zero();

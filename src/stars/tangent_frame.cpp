@@ -1,13 +1,13 @@
 // Section 5.7 of the paper: the tangent plane through the neighbours, by principal component analysis.
 #include "stars/tangent_frame.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 
 #include "base/point_buffer.h"
 #include "base/power_of_two.h"
+#include "base/symmetric_eigen.h"
 #include "stars/offsets.h"
 
 namespace tufted {
@@ -22,7 +22,7 @@ constexpr double line_share = 0.1;
 PrincipalAxes carefulAxes(const Covariance& a) {
   Eigen::Matrix3d matrix;
   matrix << a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
+  const auto solver = symmetricEigen(matrix);
   return {solver.eigenvectors().col(0), solver.eigenvalues(), a.extent};
 }
 

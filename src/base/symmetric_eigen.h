@@ -1,0 +1,13 @@
+#pragma once
+
+#include <Eigen/Eigenvalues>
+
+// Eigenvalues, ascending, and orthonormal eigenvectors of a real symmetric matrix, of which the lower half is read.
+// Eigen's solver takes up to ten seconds to compile for each size, so it is compiled in one file alone.
+namespace tufted {
+
+Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> symmetricEigen(const Eigen::Matrix2d& matrix);
+Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> symmetricEigen(const Eigen::Matrix3d& matrix);
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> symmetricEigen(const Eigen::MatrixXd& matrix);
+
+}  // namespace tufted
