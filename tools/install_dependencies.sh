@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
-# Installs what tufted, its tests and its benchmark need, on Debian 12 and Ubuntu 22.04 and 24.04. Does nothing, and
-# asks for no rights, where all of it is there already.
-#   --command  only what the command `tufted` needs: a third of the packages, without PCL, Python, tests and benchmark
-#   --tests  also what the checks of tools/test.sh need: clang with its sanitizers, clang-format, doxygen, pytest, and a
-#            browser where it is a package (on Ubuntu it is none, and the tests of pages in a browser skip themselves)
-#   --all    that, and clang-tidy
+# Installs what tufted needs, on Debian 12 and Ubuntu 22.04 and 24.04. Does nothing, and asks for no rights, where all of
+# it is there already. Without options it installs what all parts and the benchmark need, otherwise what these need:
+#   --command  the command `tufted` and the library alone
+#   --pcl      the classes for PCL as well; PCL brings Qt and VTK
+#   --python   the package for Python as well
+#   --tests    everything, and what the checks of tools/test.sh need: clang with its sanitizers, clang-format, doxygen,
+#              pytest, and a browser where it is a package (on Ubuntu it is none, and the tests of pages in a browser skip
+#              themselves)
+#   --all      that, and clang-tidy
 #
 # The names are the same on all three. What differs: Ubuntu keeps most of them in `universe` (on by default); 22.04 has
 # GCC 11, CMake 3.22, PCL 1.12 and CGAL 5.4, which suffice.
@@ -18,28 +21,33 @@ command_packages=(
   liblzf-dev libzip-dev libmatio-dev nlohmann-json3-dev libcli11-dev  # files and the command
   zlib1g-dev libpng-dev libfreetype-dev  # pages and pictures to look at
 )
-packages=(
-  "${command_packages[@]}"
-  libpcl-dev  # the classes for PCL
-  help2man    # the manual pages of the command
-  python3 python3-dev pybind11-dev python3-numpy python3-scipy python3-pip python3-venv  # the package for Python
+pcl_packages=(libpcl-dev)
+python_packages=(python3 python3-dev pybind11-dev python3-numpy python3-scipy python3-pip python3-venv)
+other_packages=(
+  help2man  # the manual pages of the command
   libgtest-dev libgmock-dev libspectra-dev libbenchmark-dev libnanoflann-dev  # tests and benchmark
 )
+check_packages=(clang clang-format-14 doxygen python3-pytest)
 
+packages=("${command_packages[@]}")
 sanitizers=false
-case "${1-}" in
-  '') ;;
-  --command) packages=("${command_packages[@]}") ;;
-  --tests | --all)
-    sanitizers=true
-    packages+=(clang clang-format-14 doxygen python3-pytest)
-    [[ $1 == --tests ]] || packages+=(clang-tidy)
-    ;;
-  *)
-    echo "usage: tools/install_dependencies.sh [--command | --tests | --all]" >&2
-    exit 2
-    ;;
-esac
+(($# > 0)) || packages+=("${pcl_packages[@]}" "${python_packages[@]}" "${other_packages[@]}")
+for part in "$@"; do
+  case $part in
+    --command) ;;
+    --pcl) packages+=("${pcl_packages[@]}") ;;
+    --python) packages+=("${python_packages[@]}") ;;
+    --tests | --all)
+      sanitizers=true
+      packages+=("${pcl_packages[@]}" "${python_packages[@]}" "${other_packages[@]}" "${check_packages[@]}")
+      [[ $part == --tests ]] || packages+=(clang-tidy)
+      ;;
+    *)
+      echo "usage: tools/install_dependencies.sh [--command] [--pcl] [--python] [--tests | --all]" >&2
+      exit 2
+      ;;
+  esac
+done
 
 fail() {
   echo "install_dependencies: $*" >&2

@@ -3,6 +3,7 @@ It lies in the source tree because Debian and Ubuntu have no package of a backen
 """
 import base64
 import hashlib
+import importlib.util
 import os
 import pathlib
 import re
@@ -21,11 +22,21 @@ def _version():
     return re.search(r"project\(tufted VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 
 
+def _check_packages():
+    """Says what is missing before minutes of compiling. With pip's build isolation nothing of the system is there."""
+    missing = [name for name in ("numpy", "scipy") if importlib.util.find_spec(name) is None]
+    if missing:
+        raise RuntimeError(f"tufted: {sys.executable} finds no {' and no '.join(missing)}. Install what "
+                           "tools/install_dependencies.sh --python does, take an environment of /usr/bin/python3 -m venv "
+                           "--system-site-packages, and call pip install --no-build-isolation; see docs/python.md")
+
+
 def _build():
     """Builds the package and returns its folder."""
+    _check_packages()
     folder = str(ROOT / "build" / "wheel")
     configure = ["cmake", "-S", str(ROOT), "-B", folder, *(["-G", "Ninja"] if shutil.which("ninja") else []),
-                 "-DCMAKE_BUILD_TYPE=Release", "-DTUFTED_WITH_PYTHON=ON",
+                 "-DCMAKE_BUILD_TYPE=Release", "-DTUFTED_UNITY=12", "-DTUFTED_WITH_PYTHON=ON",
                  "-DTUFTED_WITH_PCL=OFF", "-DTUFTED_BUILD_TOOLS=OFF", "-DTUFTED_BUILD_TESTS=OFF",
                  f"-DTUFTED_PYTHON={sys.executable}", "-DCMAKE_MODULE_LINKER_FLAGS=-s"]
     subprocess.run(configure, check=True)
@@ -63,7 +74,8 @@ def build_sdist(sdist_directory, config_settings=None):
     version = _version()
     name = f"tufted-{version}"
     with tarfile.open(pathlib.Path(sdist_directory, f"{name}.tar.gz"), "w:gz") as archive:
-        for part in ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pyproject.toml", "include", "src"):
+        for part in ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pyproject.toml", "include", "src",
+                     "tools/unity.cmake"):
             archive.add(ROOT / part, f"{name}/{part}")
     return f"{name}.tar.gz"
 

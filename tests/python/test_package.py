@@ -127,3 +127,13 @@ def test_import_takes_less_than_three_tenths_of_a_second():
     seconds = [float(subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True,
                                     env=os.environ).stdout) for _ in range(5)]
     assert min(seconds) < 0.3
+
+
+def test_missing_packages_are_told_before_anything_is_compiled(tmp_path):
+    source = pathlib.Path(__file__).resolve().parents[2] / "src" / "python"
+    code = f"import sys; sys.path.insert(0, {str(source)!r}); import tufted_backend; tufted_backend.build_wheel('.')"
+    # -S: without the folder that has the packages, as under pip's build isolation.
+    run = subprocess.run([sys.executable, "-I", "-S", "-c", code], capture_output=True, text=True, cwd=tmp_path)
+    assert run.returncode == 1
+    assert "finds no numpy and no scipy" in run.stderr
+    assert run.stdout == "" and not list(tmp_path.iterdir())
