@@ -58,6 +58,7 @@ TEST(LaplacianEstimation, LooksForJumpsFromTheSensorOfAnOrganizedCloud) {
   cloud->sensor_origin_ = {1, 2, 3, 0};
   Estimation estimation;
   estimation.setInputCloud(cloud);
+  estimation.setOrganizedSearch(false);
   const Points points = pointsOf(*cloud);
   const Eigen::Vector3d viewpoint = sensor;
   const Laplacian seen = pointCloudLaplacian(points, {.viewpoint = &viewpoint}), unseen = pointCloudLaplacian(points);
@@ -67,8 +68,14 @@ TEST(LaplacianEstimation, LooksForJumpsFromTheSensorOfAnOrganizedCloud) {
   cloud->height = 60;
   EXPECT_EQ(computed(estimation).boundary, seen.boundary);
   const Eigen::Vector3d elsewhere(-50, 80, 3);
+  const auto expected = pointCloudLaplacian(points, {.viewpoint = &elsewhere}).boundary;
+  ASSERT_NE(expected, seen.boundary);
   estimation.setOptions({.viewpoint = &elsewhere});
-  EXPECT_EQ(computed(estimation).boundary, pointCloudLaplacian(points, {.viewpoint = &elsewhere}).boundary);
+  EXPECT_EQ(computed(estimation).boundary, expected);
+  estimation.setOptions({});
+  EXPECT_EQ(computed(estimation).boundary, seen.boundary);
+  estimation.setViewPoint(-50, 80, 3);
+  EXPECT_EQ(computed(estimation).boundary, expected);
 }
 
 TEST(LaplacianEstimation, ASensorThatIsNowhereIsAMistake) {
@@ -96,11 +103,22 @@ TEST(LaplacianEstimation, ByPixelsIsTheCoresByTheImage) {
   const Points points = pointsOf(*cloud);
   Estimation estimation;
   estimation.setInputCloud(cloud);
-  EXPECT_FALSE(estimation.getOrganizedSearch());
-  estimation.setOrganizedSearch(true);
   const ScanStructure whole = imageStructure(64, 48);
   const CloudOptions options{.structure = &whole};
-  EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(points, options).L));
+  const Laplacian by_image = pointCloudLaplacian(points, options), in_space = pointCloudLaplacian(points);
+  ASSERT_FALSE(sameBits(by_image.L, in_space.L));
+  EXPECT_EQ(estimation.getOrganizedSearch(), OrganizedSearch::automatic);
+  EXPECT_TRUE(sameBits(computed(estimation).L, by_image.L)) << "recognised";
+  estimation.setOrganizedSearch(false);
+  EXPECT_TRUE(sameBits(computed(estimation).L, in_space.L));
+  // The image of another camera is not recognised, but may be declared.
+  cloud->sensor_origin_ = {1, 2, 3, 0};
+  estimation.setOrganizedSearch(OrganizedSearch::automatic);
+  EXPECT_TRUE(sameBits(computed(estimation).L, in_space.L));
+  cloud->sensor_origin_ = {0, 0, 0, 0};
+  estimation.setOrganizedSearch(true);
+  EXPECT_EQ(estimation.getOrganizedSearch(), OrganizedSearch::on);
+  EXPECT_TRUE(sameBits(computed(estimation).L, by_image.L));
 
   // With indices, the structure holds the pixels that they name.
   std::vector<int> some;
@@ -114,7 +132,10 @@ TEST(LaplacianEstimation, ByPixelsIsTheCoresByTheImage) {
   }
   estimation.setIndices(indicesOf(some));
   const CloudOptions of_some{.structure = &structure};
-  EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(chosen, of_some).L));
+  for (const OrganizedSearch organized : {OrganizedSearch::on, OrganizedSearch::automatic}) {
+    estimation.setOrganizedSearch(organized);
+    EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(chosen, of_some).L));
+  }
 }
 
 TEST(LaplacianEstimation, ByPixelsOfAnUnorganizedCloudIsAMistake) {
@@ -252,6 +273,102 @@ TEST(LaplacianEstimation, SaysOnPclsConsoleWhatACallerGotWrong) {
   expectSaid("setIndices: index -1, must lie in [0, 100)", [](auto& e) { e.setIndices(indicesOf({-1})); });
   expectSaid("pointCloudLaplacian: mollify = -1", [](auto& e) { e.setOptions({.mollify = -1}); });
   expectSaid("cancelled during", [](auto& e) { e.setOptions({.progress = [](auto, double) { return false; }}); });
+}
+
+TEST(LaplacianEstimation, OwnsWhatOptionsBorrow) {
+  const auto cloud = cloudOf(shapes::sphere(500).points);
+  const Points points = pointsOf(*cloud);
+  Neighborhoods followers(500, 3);
+  for (int i = 0; i < 500; ++i) followers.row(i) << (i + 1) % 500, (i + 2) % 500, (i + 3) % 500;
+  Points normals = -points;
+  const Laplacian core = pointCloudLaplacian(points, {.normals = &normals, .neighborhoods = &followers});
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setOptions({.normals = &normals, .neighborhoods = &followers});
+  normals.setConstant(NAN);
+  followers.setConstant(-7);
+  Estimation copy = estimation;
+  estimation.setOptions({});
+  const Laplacian result = computed(copy);
+  EXPECT_TRUE(sameBits(result.L, core.L));
+  EXPECT_EQ(result.frames.normals, core.frames.normals);
+  copy.setOptions(copy.getOptions());  // which borrow from the object itself
+  EXPECT_TRUE(sameBits(computed(copy).L, core.L));
+  EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(points).L));
+}
+
+TEST(LaplacianEstimation, GivenAStructureDoesNotRecogniseAnother) {
+  const auto cloud = cloudOf(shapes::depthCamera({.width = 64, .height = 48}, 3).points);
+  cloud->width = 64;
+  cloud->height = 48;
+  ScanStructure upper = imageStructure(64, 48);
+  std::fill(upper.row.begin() + 64 * 24, upper.row.end(), -1);
+  const Eigen::Vector3d sensor(0, 0, 0);
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setOptions({.structure = &upper});
+  const Laplacian core = pointCloudLaplacian(pointsOf(*cloud), {.structure = &upper, .viewpoint = &sensor});
+  EXPECT_TRUE(sameBits(computed(estimation).L, core.L));
+}
+
+TEST(LaplacianEstimation, OptionsDoNotUndoSetters) {
+  for (const bool options_first : {true, false}) {
+    Estimation estimation;
+    const CloudOptions options{.neighbors = 12, .mollify = 0.5, .threads = 3};
+    if (options_first) estimation.setOptions(options);
+    if (options_first) EXPECT_EQ(estimation.getKSearch(), 12);
+    if (options_first) EXPECT_EQ(estimation.getNumberOfThreads(), 3U);
+    estimation.setKSearch(20);
+    estimation.setNumberOfThreads(1);
+    if (!options_first) estimation.setOptions(options);
+    EXPECT_EQ(estimation.getKSearch(), 20);
+    EXPECT_EQ(estimation.getOptions().neighbors, 20);
+    EXPECT_EQ(estimation.getNumberOfThreads(), 1U);
+    EXPECT_EQ(estimation.getOptions().threads, 1);
+    EXPECT_EQ(estimation.getOptions().mollify, 0.5);
+  }
+}
+
+TEST(LaplacianEstimation, TakesThePresetsSteps) {
+  const auto cloud = cloudOf(withNoise(shapes::sphere(2000), 0.01).points);
+  const Points points = pointsOf(*cloud);
+  const Laplacian clean = pointCloudLaplacian(points, cloudOptions(Preset::clean));
+  ASSERT_FALSE(sameBits(clean.L, pointCloudLaplacian(points).L));
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setPreset(Preset::clean);
+  EXPECT_TRUE(sameBits(computed(estimation).L, clean.L));
+}
+
+TEST(LaplacianEstimation, KeepsMemoryForTheNextFrameAndResultsThatAreHeld) {
+  const auto sphere = cloudOf(shapes::sphere(800).points), torus = cloudOf(shapes::torus(800).points);
+  Estimation estimation;
+  estimation.setInputCloud(sphere);
+  std::shared_ptr<const Laplacian> first = estimation.compute();
+  const Laplacian copy = *first;
+  EXPECT_TRUE(sameBits(copy.L, pointCloudLaplacian(pointsOf(*sphere)).L));
+  estimation.setInputCloud(torus);
+  const std::shared_ptr<const Laplacian> second = estimation.compute();
+  EXPECT_NE(second, first);
+  EXPECT_TRUE(sameBits(first->L, copy.L)) << "the first frame is still held";
+  EXPECT_TRUE(sameBits(second->L, pointCloudLaplacian(pointsOf(*torus)).L));
+  // Nobody holds the first frame any more, so its memory serves the third.
+  const Laplacian* const memory = first.get();
+  first.reset();
+  estimation.setInputCloud(sphere);
+  const std::shared_ptr<const Laplacian> third = estimation.compute();
+  EXPECT_EQ(third.get(), memory);
+  EXPECT_TRUE(sameBits(third->L, copy.L));
+}
+
+TEST(LaplacianEstimation, AfterAMistakeReturnsAnEmptyLaplacian) {
+  Estimation estimation;
+  estimation.setInputCloud(cloudOf(shapes::sphere(100).points));
+  estimation.setKSearch(2);
+  std::shared_ptr<const Laplacian> result;
+  EXPECT_NE(consoleOf([&] { result = estimation.compute(); }).find("neighbors = 2"), std::string::npos);
+  ASSERT_NE(result, nullptr);
+  EXPECT_TRUE(isEmpty(*result));
 }
 
 TEST(LaplacianEstimation, KeepsWhatIsSet) {
