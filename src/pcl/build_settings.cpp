@@ -133,8 +133,8 @@ void BuildSettings::withOptions(const detail::CloudInput& input,
 }
 
 std::shared_ptr<const Laplacian> BuildSettings::build(const detail::CloudInput& input) {
-  // Results share the ownership of their builder, so a builder that is owned once is free. Of the free ones one is kept:
-  // who holds the last frame until the next one is built makes two builders take turns.
+  // Results share the ownership of their builder, so a builder that is owned once is free. Of the free ones one is
+  // kept: who holds the last frame until the next one is built makes two builders take turns.
   const auto isFree = [](const std::shared_ptr<LaplacianBuilder>& builder) { return builder.use_count() == 1; };
   const auto free = std::find_if(builders_.begin(), builders_.end(), isFree);
   std::shared_ptr<LaplacianBuilder> builder;

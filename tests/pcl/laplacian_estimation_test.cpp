@@ -315,9 +315,11 @@ TEST(LaplacianEstimation, OptionsDoNotUndoSetters) {
   for (const bool options_first : {true, false}) {
     Estimation estimation;
     const CloudOptions options{.neighbors = 12, .mollify = 0.5, .threads = 3};
-    if (options_first) estimation.setOptions(options);
-    if (options_first) EXPECT_EQ(estimation.getKSearch(), 12);
-    if (options_first) EXPECT_EQ(estimation.getNumberOfThreads(), 3U);
+    if (options_first) {
+      estimation.setOptions(options);
+      EXPECT_EQ(estimation.getKSearch(), 12);
+      EXPECT_EQ(estimation.getNumberOfThreads(), 3U);
+    }
     estimation.setKSearch(20);
     estimation.setNumberOfThreads(1);
     if (!options_first) estimation.setOptions(options);

@@ -16,7 +16,8 @@ namespace tufted {
 
 /// Whether the pixels of an organized cloud replace the search for neighbours.
 enum class OrganizedSearch {
-  automatic,  ///< if isDepthImage() recognises what a pinhole camera at sensor_origin_ saw, as the command `tufted` does
+  automatic,  ///< if isDepthImage() recognises what a pinhole camera at sensor_origin_ saw, as the command `tufted`
+              ///< does
   on,         ///< always: the cloud is declared a depth image seen from its sensor_origin_
   off,        ///< never: neighbours are found in space
 };
@@ -40,11 +41,11 @@ namespace detail {
 
 /// A cloud of PCL as the core takes it.
 struct CloudInput {
-  Points points;                                    ///< all points of the cloud, in double
-  int width = 0, height = 0;                        ///< as those of the cloud; a height above 1: organized
+  Points points;                                     ///< all points of the cloud, in double
+  int width = 0, height = 0;                         ///< as those of the cloud; a height above 1: organized
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< the cloud's sensor_origin_
-  const pcl::Indices* indices = nullptr;            ///< points to build from, one row each; null: all, in their order
-  std::optional<Neighborhoods> neighborhoods = {};  ///< found by a search method, one row per row of the Laplacian
+  const pcl::Indices* indices = nullptr;             ///< points to build from, one row each; null: all, in their order
+  std::optional<Neighborhoods> neighborhoods = {};   ///< found by a search method, one row per row of the Laplacian
 };
 
 /// The pixels of a depth image, or nothing if neighbours are to be found in space.
@@ -99,7 +100,7 @@ class BuildSettings : public OrganizedSettings {
   /// The position of the sensor, null if unknown. Belongs to this object or to `input`.
   const Eigen::Vector3d* viewpointOf(const detail::CloudInput& input) const;
 
-  CloudOptions options_;              ///< as set, without what they borrow
+  CloudOptions options_;               ///< as set, without what they borrow
   std::optional<int> neighbors_ = {};  ///< k as set by setKSearch()
 
  private:
@@ -114,9 +115,9 @@ class BuildSettings : public OrganizedSettings {
 /// Settings of classes that use a Laplacian: one that was built before, or their own.
 class SurfaceSettings : public BuildSettings {
  public:
-  /// Uses a Laplacian of all points of the input, as from LaplacianEstimation::compute(). The settings of the build have
-  /// no effect then. Null (default): every computation builds its own, from all points of the input, whatever setIndices
-  /// says.
+  /// Uses a Laplacian of all points of the input, as from LaplacianEstimation::compute(). The settings of the build
+  /// have no effect then. Null (default): every computation builds its own, from all points of the input, whatever
+  /// setIndices says.
   void setSurface(std::shared_ptr<const Laplacian> surface) { given_ = std::move(surface); }
   /// The Laplacian of the last computation, whose status says why a point takes no part; null before the first.
   const std::shared_ptr<const Laplacian>& getSurface() const { return used_; }

@@ -15,8 +15,8 @@ namespace tufted {
 /// Computes distances along the surface from some points of a cloud, see DistanceSolver.
 ///
 /// The surface is that of all finite points of the input, or the one of setSurface(), for which what queries need is
-/// prepared once. Results are those of the points that setIndices names. A caller's mistake is reported on PCL's console
-/// and leaves an empty result.
+/// prepared once. Results are those of the points that setIndices names. A caller's mistake is reported on PCL's
+/// console and leaves an empty result.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/geodesic_distance.hpp.
 template <typename PointT>
@@ -33,7 +33,8 @@ class GeodesicDistance : public pcl::PCLBase<PointT>, public LaplacianSettings<P
 
   /// Computes distances: the field `intensity`, in the unit of the points, infinite where no path leads and NaN at a
   /// point that takes no part.
-  /// @param[out] output one point per index or, without indices, an organized cloud as the input; NaN positions are kept
+  /// @param[out] output one point per index or, without indices, an organized cloud as the input; NaN positions are
+  /// kept
   void compute(pcl::PointCloud<pcl::PointXYZI>& output);
 
   /// Finds the points within a radius of the sources along the surface, visiting these alone.

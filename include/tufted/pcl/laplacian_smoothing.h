@@ -12,11 +12,11 @@ namespace tufted {
 
 /// Smooths the positions of a cloud by implicit steps (M + t L) x' = M x; see tufted::smooth.
 ///
-/// The Laplacian is that of all finite points of the input, or the one of setSurface(). With setIndices only the points named move; all others,
-/// and every copy of them, stay in place. All other fields, the order, width and height, header and sensor pose are
-/// copied. NaN points stay NaN in place, and is_dense says whether there are any. Nothing is removed, so
-/// getRemovedIndices is always empty. The output may be the input. A caller's mistake is reported on PCL's console and
-/// leaves an empty output.
+/// The Laplacian is that of all finite points of the input, or the one of setSurface(). With setIndices only the points
+/// named move; all others, and every copy of them, stay in place. All other fields, the order, width and height, header
+/// and sensor pose are copied. NaN points stay NaN in place, and is_dense says whether there are any. Nothing is
+/// removed, so getRemovedIndices is always empty. The output may be the input. A caller's mistake is reported on PCL's
+/// console and leaves an empty output.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_smoothing.hpp.
 template <typename PointT>

@@ -10,8 +10,8 @@ namespace tufted {
 ///
 /// Normals face the viewpoint if it is known, see setViewPoint(). Otherwise neighbours agree, and components face
 /// outwards. The field `curvature` holds the mean curvature in 1 / length, positive where the surface bends away from
-/// the normal; that of pcl::NormalEstimation is a ratio of eigenvalues. A pcl::PointNormal also gets the position of its
-/// point. See SurfaceFeature for what all features have in common.
+/// the normal; that of pcl::NormalEstimation is a ratio of eigenvalues. A pcl::PointNormal also gets the position of
+/// its point. See SurfaceFeature for what all features have in common.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES and the outputs pcl::Normal and pcl::PointNormal; for other types include
 /// impl/oriented_normal_estimation.hpp.

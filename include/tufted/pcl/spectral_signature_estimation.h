@@ -11,11 +11,11 @@ namespace tufted {
 
 /// Computes the heat or wave kernel signature of each point, which does not change when the surface moves or bends.
 ///
-/// Positive eigenvalues alone are used, see spectrum(); heat that is spread evenly over a component is added. Signatures
-/// have the unit 1 / length^2. See SurfaceFeature for what all features have in common.
+/// Positive eigenvalues alone are used, see spectrum(); heat that is spread evenly over a component is added.
+/// Signatures have the unit 1 / length^2. See SurfaceFeature for what all features have in common.
 ///
-/// Instantiated for PCL_XYZ_POINT_TYPES and the output pcl::Histogram<16>; for other types, such as pcl::Histogram<100>,
-/// include impl/spectral_signature_estimation.hpp.
+/// Instantiated for PCL_XYZ_POINT_TYPES and the output pcl::Histogram<16>; for other types, such as
+/// pcl::Histogram<100>, include impl/spectral_signature_estimation.hpp.
 /// @tparam PointOutT has an array of floats `histogram`, one entry per sample
 template <typename PointInT, typename PointOutT = pcl::Histogram<16>>
 class SpectralSignatureEstimation : public SurfaceFeature<PointInT, PointOutT> {
@@ -40,8 +40,8 @@ class SpectralSignatureEstimation : public SurfaceFeature<PointInT, PointOutT> {
   int getEigenpairs() const { return settings_.eigenpairs; }
 
   /// Times in length^2 (heat), or ascending natural logarithms of eigenvalues in equal steps (wave), one per entry of
-  /// the output. Signatures of two clouds are comparable if they have the same. Empty (default): those of heatTimes() or
-  /// waveEnergies() for each cloud.
+  /// the output. Signatures of two clouds are comparable if they have the same. Empty (default): those of heatTimes()
+  /// or waveEnergies() for each cloud.
   void setSamples(std::vector<double> values) { settings_.samples = std::move(values); }
   /// The times or energies of the last computation.
   const std::vector<double>& getSamples() const { return used_; }

@@ -39,9 +39,9 @@ class FeatureRows : public SurfaceSettings {
 
 /// Base of the classes that compute something at each point of a surface, as a pcl::Feature.
 ///
-/// The surface is that of all finite points of the input, or the one of setSurface(). The output has one point per index
-/// or, without indices, the width and height of the input. A point that takes no part (NaN, isolated) gets NaN, and then
-/// is_dense is false; SurfaceSettings::getSurface() has its status. Coincident points have the values of their
+/// The surface is that of all finite points of the input, or the one of setSurface(). The output has one point per
+/// index or, without indices, the width and height of the input. A point that takes no part (NaN, isolated) gets NaN,
+/// and then is_dense is false; SurfaceSettings::getSurface() has its status. Coincident points have the values of their
 /// representative.
 ///
 /// Neither k nor a radius must be set: setKSearch(0), PCL's default, stands for the options' 30 neighbours. Without

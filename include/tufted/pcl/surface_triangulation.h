@@ -13,10 +13,10 @@ namespace tufted {
 /// Selects triangles of the surface that form a mesh in which every edge has one or two triangles, see
 /// surfaceTriangles(). They face the viewpoint if it is known, see setViewPoint().
 ///
-/// The surface is that of all finite points of the input, or the one of setSurface(). The cloud of the mesh is the input
-/// with all its fields, NaN points too, so that corners are indices of the input; a point that takes no part is in no
-/// triangle. With setIndices only triangles all of whose corners are named remain. A caller's mistake is reported on
-/// PCL's console and leaves an empty mesh.
+/// The surface is that of all finite points of the input, or the one of setSurface(). The cloud of the mesh is the
+/// input with all its fields, NaN points too, so that corners are indices of the input; a point that takes no part is
+/// in no triangle. With setIndices only triangles all of whose corners are named remain. A caller's mistake is reported
+/// on PCL's console and leaves an empty mesh.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/surface_triangulation.hpp.
 template <typename PointT>

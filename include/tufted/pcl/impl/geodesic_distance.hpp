@@ -11,9 +11,9 @@ template <typename PointT>
 bool tufted::GeodesicDistance<PointT>::run(const char* method, const std::function<void(const Laplacian&)>& use) {
   if (!this->initCompute()) return false;
   const bool succeeded = detail::reported(getClassName(), method, [&] {
-    use(this->surfaceOf(getClassName(), detail::wholeInput<PointT>(
-                                            input_, *indices_, this->hasGivenSurface() ? nullptr : search_,
-                                            this->getKSearch())));
+    use(this->surfaceOf(getClassName(),
+                        detail::wholeInput<PointT>(input_, *indices_, this->hasGivenSurface() ? nullptr : search_,
+                                                   this->getKSearch())));
   });
   this->deinitCompute();
   return succeeded;

@@ -11,8 +11,8 @@ void tufted::LaplacianSmoothing<PointT>::applyFilter(PointCloud& output) {
   output = *input_;
   report_ = {};
   const bool succeeded = detail::reported(getClassName(), "applyFilter", [&] {
-    const detail::CloudInput input = detail::wholeInput<PointT>(
-        input_, *indices_, this->hasGivenSurface() ? nullptr : search_, this->getKSearch());
+    const detail::CloudInput input =
+        detail::wholeInput<PointT>(input_, *indices_, this->hasGivenSurface() ? nullptr : search_, this->getKSearch());
     std::vector<std::uint8_t> fixed(input_->size(), 1);
     for (const pcl::index_t i : *indices_) fixed[i] = 0;
     const Laplacian& laplacian = this->surfaceOf(getClassName(), input);

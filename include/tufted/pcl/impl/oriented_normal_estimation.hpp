@@ -15,8 +15,8 @@ void tufted::OrientedNormalEstimation<PointInT, PointOutT>::fill(const PointInT&
   output.curvature = values[3];
 }
 
-#define PCL_INSTANTIATE_OrientedNormalEstimation(T)                                      \
-  template class PCL_EXPORTS tufted::SurfaceFeature<T, pcl::Normal>;                     \
-  template class PCL_EXPORTS tufted::OrientedNormalEstimation<T, pcl::Normal>;           \
-  template class PCL_EXPORTS tufted::SurfaceFeature<T, pcl::PointNormal>;                \
+#define PCL_INSTANTIATE_OrientedNormalEstimation(T)                            \
+  template class PCL_EXPORTS tufted::SurfaceFeature<T, pcl::Normal>;           \
+  template class PCL_EXPORTS tufted::OrientedNormalEstimation<T, pcl::Normal>; \
+  template class PCL_EXPORTS tufted::SurfaceFeature<T, pcl::PointNormal>;      \
   template class PCL_EXPORTS tufted::OrientedNormalEstimation<T, pcl::PointNormal>;

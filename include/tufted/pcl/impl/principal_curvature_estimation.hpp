@@ -11,6 +11,6 @@ void tufted::PrincipalCurvatureEstimation<PointInT>::fill(const PointInT&, const
   output.pc2 = values[4];
 }
 
-#define PCL_INSTANTIATE_PrincipalCurvatureEstimation(T)                            \
-  template class PCL_EXPORTS tufted::SurfaceFeature<T, pcl::PrincipalCurvatures>;  \
+#define PCL_INSTANTIATE_PrincipalCurvatureEstimation(T)                           \
+  template class PCL_EXPORTS tufted::SurfaceFeature<T, pcl::PrincipalCurvatures>; \
   template class PCL_EXPORTS tufted::PrincipalCurvatureEstimation<T>;

@@ -11,6 +11,6 @@ void tufted::SurfaceBoundaryEstimation<PointInT>::fill(const PointInT&, const fl
   output.boundary_point = values[0] > 0 ? static_cast<std::uint8_t>(values[0]) : 0;
 }
 
-#define PCL_INSTANTIATE_SurfaceBoundaryEstimation(T)                    \
-  template class PCL_EXPORTS tufted::SurfaceFeature<T, pcl::Boundary>;  \
+#define PCL_INSTANTIATE_SurfaceBoundaryEstimation(T)                   \
+  template class PCL_EXPORTS tufted::SurfaceFeature<T, pcl::Boundary>; \
   template class PCL_EXPORTS tufted::SurfaceBoundaryEstimation<T>;

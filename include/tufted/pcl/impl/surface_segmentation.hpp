@@ -11,13 +11,14 @@ void tufted::SurfaceSegmentation<PointT>::segment(std::vector<pcl::PointIndices>
   clusters.clear();
   if (!this->initCompute()) return;
   detail::reported(getClassName(), "segment", [&] {
-    const detail::CloudInput input = detail::wholeInput<PointT>(
-        input_, *indices_, this->hasGivenSurface() ? nullptr : search_, this->getKSearch());
+    const detail::CloudInput input =
+        detail::wholeInput<PointT>(input_, *indices_, this->hasGivenSurface() ? nullptr : search_, this->getKSearch());
     const Laplacian& laplacian = this->surfaceOf(getClassName(), input);
     const std::vector<int> labels =
         count_ == 0 ? componentLabels(laplacian)
-                    : segments(laplacian, {.method = method_, .count = count_,
-                                           .solver = {.threads = this->getOptions().threads}}).labels;
+                    : segments(laplacian,
+                               {.method = method_, .count = count_, .solver = {.threads = this->getOptions().threads}})
+                          .labels;
     const int most_label = labels.empty() ? -1 : *std::max_element(labels.begin(), labels.end());
     std::vector<pcl::PointIndices> all(static_cast<std::size_t>(most_label + 1));
     for (const pcl::index_t i : *indices_)

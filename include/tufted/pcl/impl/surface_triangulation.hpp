@@ -27,8 +27,8 @@ template <typename PointT>
 bool tufted::SurfaceTriangulation<PointT>::triangulate(std::vector<pcl::Vertices>& polygons) {
   polygons.clear();
   return detail::reported(getClassName(), "reconstruct", [&] {
-    const detail::CloudInput input = detail::wholeInput<PointT>(
-        input_, *indices_, hasGivenSurface() ? nullptr : tree_, getKSearch());
+    const detail::CloudInput input =
+        detail::wholeInput<PointT>(input_, *indices_, hasGivenSurface() ? nullptr : tree_, getKSearch());
     const Triangles triangles = surfaceTriangles(surfaceOf(getClassName(), input));
     std::vector<std::uint8_t> is_asked(input_->size(), 0);
     for (const pcl::index_t i : *indices_) is_asked[i] = 1;
