@@ -20,6 +20,7 @@ namespace {
 
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
+constexpr double reach = 0.25;  // in the unit of the cloud, here the length of a gripper in metres
 
 /// Milliseconds that a call takes.
 template <class Call>
@@ -81,7 +82,7 @@ class Node {
       distance_.setInputCloud(cloud);
       distance_.setSurface(surface);
       distance_.setSources({largest[largest.size() / 2]});  // where a robot might stand
-      distance_.radiusSearch(0.5, near_, near_distances_);
+      distance_.radiusSearch(reach, near_, near_distances_);
     });
     const double total = build + normals + boundary + segments + near;
     std::printf("%7zu %8.1f %8.1f %8.1f %8.1f %8.1f %8.1f %9zu %7zu\n", cloud->size(), build, normals, boundary,
@@ -106,7 +107,7 @@ class Node {
 
 int main(int argc, char** argv) {
   if (argc < 2) return 2;
-  const int stride = argc > 2 ? std::max(1, std::atoi(argv[2])) : 2;
+  const int stride = argc > 2 ? std::max(1, std::atoi(argv[2])) : 3;
   const int threads = argc > 3 ? std::max(0, std::atoi(argv[3])) : 0;
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(argv[1]))
@@ -115,7 +116,7 @@ int main(int argc, char** argv) {
 
   pcl::console::setVerbosityLevel(pcl::console::L_ERROR);  // warnings about a frame would stand between its figures
   Node node(static_cast<unsigned int>(threads));
-  std::printf(" points    build  normals boundary segments   within    total  segments  points within 0.5\n");
+  std::printf(" points    build  normals boundary segments   within    total  segments  points within reach\n");
   int frames = 0;
   double total = 0;
   for (const std::filesystem::path& file : files) {

@@ -98,7 +98,8 @@ TEST(GeodesicDistance, WithinARadiusFindsThePointsThatAreNear) {
   distance.compute(all);
   pcl::Indices found, expected;
   std::vector<float> distances;
-  EXPECT_EQ(distance.radiusSearch(0.5, found, distances), static_cast<int>(found.size()));
+  const int count = distance.radiusSearch(0.5, found, distances);
+  EXPECT_EQ(count, static_cast<int>(found.size()));
   for (int i = 0; i < 1600; ++i)
     if (all[i].intensity <= 0.5) expected.push_back(i);
   EXPECT_EQ(found, expected);
