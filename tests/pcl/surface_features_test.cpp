@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pcl/clouds.h"
+#include "pcl/values.h"
 #include "shapes/shapes.h"
 #include "tufted/pcl/laplacian_estimation.h"
 #include "tufted/pcl/oriented_normal_estimation.h"
@@ -21,40 +22,6 @@ using namespace pcl_tests;
 
 using Point = pcl::PointXYZ;
 using Cloud = pcl::PointCloud<Point>;
-using detail::PointValues;
-
-/// What the outputs hold, one row per point.
-PointValues valuesOf(const pcl::PointCloud<pcl::Normal>& cloud) {
-  PointValues values(static_cast<Eigen::Index>(cloud.size()), 4);
-  for (Eigen::Index i = 0; i < values.rows(); ++i)
-    values.row(i) << cloud[i].normal_x, cloud[i].normal_y, cloud[i].normal_z, cloud[i].curvature;
-  return values;
-}
-PointValues valuesOf(const pcl::PointCloud<pcl::PrincipalCurvatures>& cloud) {
-  PointValues values(static_cast<Eigen::Index>(cloud.size()), 5);
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    const auto& at = cloud[i];
-    values.row(i) << at.principal_curvature_x, at.principal_curvature_y, at.principal_curvature_z, at.pc1, at.pc2;
-  }
-  return values;
-}
-PointValues valuesOf(const pcl::PointCloud<pcl::Boundary>& cloud) {
-  PointValues values(static_cast<Eigen::Index>(cloud.size()), 1);
-  for (Eigen::Index i = 0; i < values.rows(); ++i) values(i, 0) = cloud[i].boundary_point;
-  return values;
-}
-PointValues valuesOf(const pcl::PointCloud<pcl::Histogram<16>>& cloud) {
-  PointValues values(static_cast<Eigen::Index>(cloud.size()), 16);
-  for (Eigen::Index i = 0; i < values.rows(); ++i)
-    values.row(i) = Eigen::Map<const Eigen::RowVectorXf>(cloud[i].histogram, 16);
-  return values;
-}
-
-bool same(const PointValues& a, const PointValues& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() &&
-         ((a.array() == b.array()) || (a.array().isNaN() && b.array().isNaN())).all();
-}
-
 /// What the core computes, NaN where a point takes no part.
 PointValues coreNormals(const Laplacian& laplacian, const Eigen::Vector3d* viewpoint = nullptr) {
   const Frames frames = orientedFrames(laplacian, {.viewpoint = viewpoint});
