@@ -104,7 +104,7 @@ consumer() {
 
 # formatted: whether all files are as Debian's clang-format 14 leaves them.
 formatted() {
-  find src include tools tests \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) -print0 |
+  find src include tools tests docs/examples \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) -print0 |
     xargs -0 clang-format-14 --dry-run -Werror
 }
 

@@ -58,6 +58,7 @@ TEST(LaplacianEstimation, LooksForJumpsFromTheSensorOfAnOrganizedCloud) {
   cloud->sensor_origin_ = {1, 2, 3, 0};
   Estimation estimation;
   estimation.setInputCloud(cloud);
+  estimation.setOrganizedSearch(false);
   const Points points = pointsOf(*cloud);
   const Eigen::Vector3d viewpoint = sensor;
   const Laplacian seen = pointCloudLaplacian(points, {.viewpoint = &viewpoint}), unseen = pointCloudLaplacian(points);
@@ -67,8 +68,14 @@ TEST(LaplacianEstimation, LooksForJumpsFromTheSensorOfAnOrganizedCloud) {
   cloud->height = 60;
   EXPECT_EQ(computed(estimation).boundary, seen.boundary);
   const Eigen::Vector3d elsewhere(-50, 80, 3);
+  const auto expected = pointCloudLaplacian(points, {.viewpoint = &elsewhere}).boundary;
+  ASSERT_NE(expected, seen.boundary);
   estimation.setOptions({.viewpoint = &elsewhere});
-  EXPECT_EQ(computed(estimation).boundary, pointCloudLaplacian(points, {.viewpoint = &elsewhere}).boundary);
+  EXPECT_EQ(computed(estimation).boundary, expected);
+  estimation.setOptions({});
+  EXPECT_EQ(computed(estimation).boundary, seen.boundary);
+  estimation.setViewPoint(-50, 80, 3);
+  EXPECT_EQ(computed(estimation).boundary, expected);
 }
 
 TEST(LaplacianEstimation, ASensorThatIsNowhereIsAMistake) {
@@ -96,11 +103,22 @@ TEST(LaplacianEstimation, ByPixelsIsTheCoresByTheImage) {
   const Points points = pointsOf(*cloud);
   Estimation estimation;
   estimation.setInputCloud(cloud);
-  EXPECT_FALSE(estimation.getOrganizedSearch());
-  estimation.setOrganizedSearch(true);
   const ScanStructure whole = imageStructure(64, 48);
   const CloudOptions options{.structure = &whole};
-  EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(points, options).L));
+  const Laplacian by_image = pointCloudLaplacian(points, options), in_space = pointCloudLaplacian(points);
+  ASSERT_FALSE(sameBits(by_image.L, in_space.L));
+  EXPECT_EQ(estimation.getOrganizedSearch(), OrganizedSearch::automatic);
+  EXPECT_TRUE(sameBits(computed(estimation).L, by_image.L)) << "recognised";
+  estimation.setOrganizedSearch(false);
+  EXPECT_TRUE(sameBits(computed(estimation).L, in_space.L));
+  // The image of another camera is not recognised, but may be declared.
+  cloud->sensor_origin_ = {1, 2, 3, 0};
+  estimation.setOrganizedSearch(OrganizedSearch::automatic);
+  EXPECT_TRUE(sameBits(computed(estimation).L, in_space.L));
+  cloud->sensor_origin_ = {0, 0, 0, 0};
+  estimation.setOrganizedSearch(true);
+  EXPECT_EQ(estimation.getOrganizedSearch(), OrganizedSearch::on);
+  EXPECT_TRUE(sameBits(computed(estimation).L, by_image.L));
 
   // With indices, the structure holds the pixels that they name.
   std::vector<int> some;
@@ -114,7 +132,10 @@ TEST(LaplacianEstimation, ByPixelsIsTheCoresByTheImage) {
   }
   estimation.setIndices(indicesOf(some));
   const CloudOptions of_some{.structure = &structure};
-  EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(chosen, of_some).L));
+  for (const OrganizedSearch organized : {OrganizedSearch::on, OrganizedSearch::automatic}) {
+    estimation.setOrganizedSearch(organized);
+    EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(chosen, of_some).L));
+  }
 }
 
 TEST(LaplacianEstimation, ByPixelsOfAnUnorganizedCloudIsAMistake) {

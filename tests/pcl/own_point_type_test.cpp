@@ -8,6 +8,8 @@
 #include "support/compare.h"
 #include "tufted/pcl/laplacian_estimation.h"
 #include "tufted/pcl/laplacian_smoothing.h"
+#include "tufted/pcl/spectral_signature_estimation.h"
+#include "tufted/signatures.h"
 
 namespace tufted::pcl_tests {
 
@@ -43,6 +45,16 @@ TEST(OwnPointType, GivesTheCoresResult) {
   smoothing.filter(*cloud);
   EXPECT_TRUE(samePositions(pointsOf(*cloud), rounded(smooth(core, points))));
   EXPECT_EQ((*cloud)[5].strength, 17);
+
+  // Also an output that the library is not compiled for.
+  SpectralSignatureEstimation<Echo, pcl::Histogram<5>> signature;
+  signature.setInputCloud(cloudOf<Echo>(points));
+  pcl::PointCloud<pcl::Histogram<5>> output;
+  signature.compute(output);
+  const Spectrum pairs = spectrum(core, 100, {.null_space = false});
+  const Eigen::MatrixXd expected = heatKernelSignature(core, pairs, heatTimes(pairs, 5));
+  ASSERT_EQ(output.size(), 600U);
+  for (int time = 0; time < 5; ++time) EXPECT_EQ(output[9].histogram[time], static_cast<float>(expected(9, time)));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "pcl/clouds.h"
@@ -30,6 +31,13 @@ class RealClouds : public testing::TestWithParam<const char*> {
     points_ = pointsOf(*cloud_);
   }
 
+  /// The pixels of a depth image, the other clouds have none.
+  std::optional<ScanStructure> pixels() const {
+    const int width = static_cast<int>(cloud_->width), height = static_cast<int>(cloud_->height);
+    if (!isDepthImage(points_, width, height)) return std::nullopt;
+    return imageStructure(width, height);
+  }
+
   /// An eighth of the cloud in its midst: a window of an image, else a run of a scan.
   pcl::IndicesPtr window() const {
     pcl::IndicesPtr indices(new pcl::Indices);
@@ -51,7 +59,8 @@ TEST_P(RealClouds, HaveTheCoresLaplacian) {
   estimation.setInputCloud(cloud_);
   Laplacian result;
   estimation.compute(result);
-  const Laplacian core = pointCloudLaplacian(points_);
+  const std::optional<ScanStructure> structure = pixels();
+  const Laplacian core = pointCloudLaplacian(points_, {.structure = structure ? &*structure : nullptr});
   EXPECT_TRUE(support::sameBits(result.L, core.L));
   EXPECT_TRUE(support::sameBits(result.M, core.M));
   EXPECT_EQ(result.status, core.status);
@@ -63,6 +72,7 @@ TEST_P(RealClouds, HaveTheCoresLaplacianInAWindow) {
   LaplacianEstimation<Point> estimation;
   estimation.setInputCloud(cloud_);
   estimation.setIndices(indices);
+  estimation.setOrganizedSearch(false);
   Laplacian result;
   estimation.compute(result);
   const Laplacian core = pointCloudLaplacian(points_(*indices, Eigen::all));
@@ -73,7 +83,9 @@ TEST_P(RealClouds, HaveTheCoresLaplacianInAWindow) {
 
 TEST_P(RealClouds, AreSmoothedInPlaceAsByTheCore) {
   const Cloud before = *cloud_;
-  const Laplacian laplacian = pointCloudLaplacian(points_, {.keep_cover = false});
+  const std::optional<ScanStructure> structure = pixels();
+  const Laplacian laplacian =
+      pointCloudLaplacian(points_, {.keep_cover = false, .structure = structure ? &*structure : nullptr});
   const Points smoothed = smooth(laplacian, points_, {.time_step = 4});
   LaplacianSmoothing<Point> smoothing;
   smoothing.setInputCloud(cloud_);

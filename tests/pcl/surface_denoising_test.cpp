@@ -78,6 +78,13 @@ TEST(SurfaceDenoising, MovesThePointsOfADepthImageAlongTheirRays) {
   EXPECT_TRUE(samePositions(pointsOf(output), rounded(core.positions)));
   EXPECT_GT(core.report.moved, 2900);
   EXPECT_EQ(denoising.getReport().noise, core.report.noise);
+  denoising.setOrganizedSearch(OrganizedSearch::automatic);
+  denoising.filter(output);
+  EXPECT_TRUE(samePositions(pointsOf(output), rounded(core.positions))) << "recognised";
+  denoising.setOrganizedSearch(false);
+  denoising.filter(output);
+  EXPECT_TRUE(samePositions(pointsOf(output), rounded(denoise(pointsOf(*cloud)).positions)));
+  EXPECT_FALSE(samePositions(pointsOf(output), rounded(core.positions)));
 }
 
 TEST(SurfaceDenoising, TellsMistakesOnTheConsole) {

@@ -2,6 +2,7 @@
 
 #include <pcl/pcl_base.h>
 
+#include <memory>
 #include <string>
 
 #include "tufted/laplacian.h"
@@ -9,32 +10,28 @@
 
 namespace tufted {
 
-/// Computes the Laplacian of a PCL cloud.
+/// Computes the Laplacian of a PCL cloud, which the other classes take by setSurface().
 ///
-/// It is built only from the points that setIndices names: row r of the result belongs to (*indices)[r]. Without
-/// indices row r is point r. NaN points, whatever is_dense says, keep an empty row. A caller's mistake is reported on
-/// PCL's console and leaves an empty result. The viewpoint, which distinguishes jumps from rims in Laplacian::boundary,
-/// is the sensor's origin of an organized cloud unless setOptions() gives another one.
+/// It is built only from the points that setIndices names: row r of the result belongs to (*indices)[r], also in what
+/// setOptions() is given. Without indices row r is point r. NaN points, whatever is_dense says, keep an empty row. A
+/// caller's mistake is reported on PCL's console and leaves an empty result.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_estimation.hpp.
 template <typename PointT>
-class LaplacianEstimation : public pcl::PCLBase<PointT>, public LaplacianSettings<PointT> {
+class LaplacianEstimation : public pcl::PCLBase<PointT>, public LaplacianSettings<PointT, BuildSettings> {
  public:
   /// Shared pointer, as PCL's classes have it.
   using Ptr = pcl::shared_ptr<LaplacianEstimation<PointT>>;
   /// Shared pointer to const, as PCL's classes have it.
   using ConstPtr = pcl::shared_ptr<const LaplacianEstimation<PointT>>;
 
-  /// Builds the Laplacian of the input cloud.
+  /// Builds the Laplacian of the input cloud and keeps memory for the next one, see LaplacianBuilder. The memory of a
+  /// result is used again once nobody holds the result.
+  /// @return with 0 rows after an error, which is reported on PCL's console; never null
+  std::shared_ptr<const Laplacian> compute();
+  /// Builds the Laplacian of the input cloud in new memory.
   /// @param[out] result overwritten, with 0 rows after an error, which is reported on PCL's console
   void compute(Laplacian& result);
-
-  /// Sets all options of the core, k and threads included. What they borrow (normals, neighborhoods, structure, with
-  /// one row per index) must live until compute() returns. A search method or an organized search replaces
-  /// neighborhoods and structure.
-  void setOptions(const CloudOptions& options) { options_ = options; }
-  /// See setOptions().
-  const CloudOptions& getOptions() const { return options_; }
 
   /// The name of the class, "LaplacianEstimation".
   const std::string& getClassName() const { return class_name_; }
@@ -42,11 +39,14 @@ class LaplacianEstimation : public pcl::PCLBase<PointT>, public LaplacianSetting
  protected:
   using pcl::PCLBase<PointT>::input_;
   using pcl::PCLBase<PointT>::indices_;
-  using LaplacianSettings<PointT>::options_;
-  using LaplacianSettings<PointT>::search_;
-  using LaplacianSettings<PointT>::organized_;
+  using pcl::PCLBase<PointT>::fake_indices_;
+  using LaplacianSettings<PointT, BuildSettings>::search_;
 
  private:
+  /// Calls `build` with the input, reports what it throws, and returns whether it succeeded.
+  template <class Build>
+  bool run(const Build& build);
+
   std::string class_name_ = "LaplacianEstimation";
 };
 

@@ -12,11 +12,11 @@ namespace tufted {
 
 /// Smooths the positions of a cloud by implicit steps (M + t L) x' = M x; see tufted::smooth.
 ///
-/// The Laplacian is built from all finite points of the input. With setIndices only the points named move; all others,
-/// and every copy of them, stay in place. All other fields, the order, width and height, header and sensor pose are
-/// copied. NaN points stay NaN in place, and is_dense says whether there are any. Nothing is removed, so
-/// getRemovedIndices is always empty. The output may be the input. A caller's mistake is reported on PCL's console and
-/// leaves an empty output.
+/// The Laplacian is that of all finite points of the input, or the one of setSurface(). With setIndices only the points
+/// named move; all others, and every copy of them, stay in place. All other fields, the order, width and height, header
+/// and sensor pose are copied. NaN points stay NaN in place, and is_dense says whether there are any. Nothing is
+/// removed, so getRemovedIndices is always empty. The output may be the input. A caller's mistake is reported on PCL's
+/// console and leaves an empty output.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_smoothing.hpp.
 template <typename PointT>
@@ -31,7 +31,7 @@ class LaplacianSmoothing : public pcl::Filter<PointT>, public LaplacianSettings<
 
   LaplacianSmoothing() {
     this->filter_name_ = "LaplacianSmoothing";
-    options_.keep_cover = false;
+    this->options_.keep_cover = false;
   }
 
   /// Time step t in [0, 1e10], in units of the mean squared edge length, 1 by default; see SmoothingOptions::time_step.
@@ -44,7 +44,7 @@ class LaplacianSmoothing : public pcl::Filter<PointT>, public LaplacianSettings<
   /// See setIterations().
   int getIterations() const { return iterations_; }
 
-  /// Report of the build in the last filter(): odd points, edge lengths, costs.
+  /// Report of the Laplacian in the last filter(): odd points, edge lengths, costs.
   const Report& getReport() const { return report_; }
 
   using pcl::Filter<PointT>::getClassName;
@@ -52,9 +52,7 @@ class LaplacianSmoothing : public pcl::Filter<PointT>, public LaplacianSettings<
  protected:
   using pcl::PCLBase<PointT>::input_;
   using pcl::PCLBase<PointT>::indices_;
-  using LaplacianSettings<PointT>::options_;
   using LaplacianSettings<PointT>::search_;
-  using LaplacianSettings<PointT>::organized_;
 
   /// Called by filter().
   void applyFilter(PointCloud& output) override;

@@ -3,19 +3,21 @@
 #include <pcl/filters/filter.h>
 
 #include "tufted/denoise.h"
+#include "tufted/pcl/build_settings.h"
 
 namespace tufted {
 
 /// Moves the points of a noisy cloud onto the surface, without a radius to choose; see tufted::denoise.
 ///
-/// The surface is found from all finite points of the input. With setIndices only the points named move. All other
+/// The surface is found from all finite points of the input; those of a depth image move along their rays, see
+/// setOrganizedSearch(). With setIndices only the points named move. All other
 /// fields, normals too, the order, width and height, header and sensor pose are copied. NaN points stay NaN in place,
 /// and is_dense says whether there are any. Nothing is removed, so getRemovedIndices is always empty. The output may be
 /// the input. A caller's mistake is reported on PCL's console and leaves an empty output.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/surface_denoising.hpp.
 template <typename PointT>
-class SurfaceDenoising : public pcl::Filter<PointT> {
+class SurfaceDenoising : public pcl::Filter<PointT>, public OrganizedSettings {
  public:
   /// Shared pointer, as PCL's classes have it.
   using Ptr = pcl::shared_ptr<SurfaceDenoising<PointT>>;
@@ -31,12 +33,6 @@ class SurfaceDenoising : public pcl::Filter<PointT> {
   /// See setNumberOfThreads().
   unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(threads_); }
 
-  /// Whether an organized input is a depth image seen from its sensor_origin_, whose points move along their rays;
-  /// false by default. Recommended for depth cameras.
-  void setOrganizedSearch(bool organized) { organized_ = organized; }
-  /// See setOrganizedSearch().
-  bool getOrganizedSearch() const { return organized_; }
-
   /// Report of the last filter(): points moved, outliers, the noise in the cloud's unit.
   const DenoiseReport& getReport() const { return report_; }
 
@@ -51,7 +47,6 @@ class SurfaceDenoising : public pcl::Filter<PointT> {
 
  private:
   int threads_ = 0;
-  bool organized_ = false;
   DenoiseReport report_;
 };
 

@@ -1,28 +1,43 @@
 #pragma once
 
-#include <pcl/console/print.h>
-
-#include <exception>
-
 #include "tufted/pcl/impl/cloud_laplacian.hpp"
 #include "tufted/pcl/laplacian_estimation.h"
 
 template <typename PointT>
+template <class Build>
+bool tufted::LaplacianEstimation<PointT>::run(const Build& build) {
+  if (!this->initCompute()) return false;
+  const bool succeeded = detail::reported(getClassName(), "compute", [&] {
+    detail::CloudInput input = detail::inputOf<PointT>(*input_, *indices_);
+    if (!fake_indices_) input.indices = indices_.get();
+    if (search_)
+      input.neighborhoods = detail::nearestNeighbors<PointT>(*search_, input_, *indices_, input, this->getKSearch());
+    const Laplacian& result = build(input);
+    detail::sayWarnings(getClassName(), result.report);
+  });
+  this->deinitCompute();
+  return succeeded;
+}
+
+template <typename PointT>
+std::shared_ptr<const tufted::Laplacian> tufted::LaplacianEstimation<PointT>::compute() {
+  std::shared_ptr<const Laplacian> result;
+  const bool succeeded = run([&](const detail::CloudInput& input) -> const Laplacian& {
+    result = this->build(input);
+    return *result;
+  });
+  return succeeded ? result : std::make_shared<const Laplacian>();
+}
+
+template <typename PointT>
 void tufted::LaplacianEstimation<PointT>::compute(Laplacian& result) {
   result = {};
-  if (!this->initCompute()) return;
-  try {
-    detail::checkIndices("setIndices", *input_, *indices_);
-    const Points points = detail::toPoints(*input_, *indices_);
-    CloudOptions options = options_;
-    const Eigen::Vector3d sensor = input_->sensor_origin_.template head<3>().template cast<double>();
-    if (options.viewpoint == nullptr && input_->isOrganized()) options.viewpoint = &sensor;
-    result = detail::cloudLaplacian<PointT>(input_, *indices_, points, search_, organized_, options);
-    detail::sayWarnings(getClassName(), result.report);
-  } catch (const std::exception& error) {
-    PCL_ERROR("[tufted::%s::compute] %s\n", getClassName().c_str(), error.what());
-  }
-  this->deinitCompute();
+  run([&](const detail::CloudInput& input) -> const Laplacian& {
+    this->withOptions(input, [&](const PointsRef& points, const CloudOptions& options) {
+      result = pointCloudLaplacian(points, options);
+    });
+    return result;
+  });
 }
 
 #define PCL_INSTANTIATE_LaplacianEstimation(T) template class PCL_EXPORTS tufted::LaplacianEstimation<T>;
