@@ -1,6 +1,6 @@
 // 05_node FOLDER [STRIDE] [THREADS]: takes the PCD files of a folder, in the order of their names, as a subscriber
 // takes messages, and prints the milliseconds of each step and the frames per second. A depth camera at 10 Hz leaves
-// 100 ms. Every STRIDE-th row and column of an organized cloud is used (2); THREADS 0: one per processor (0).
+// 100 ms. Every STRIDE-th row and column of an organized cloud is used (3); THREADS 0: one per processor (0).
 #include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 #include <tufted/pcl/geodesic_distance.h>

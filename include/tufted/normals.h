@@ -16,7 +16,8 @@ struct OrientationOptions {
   /// Direction that the mean normal of an open component shall have, since such a component has no outside; for an
   /// airborne scan upwards. Null: as orientedFrames() says. Not used with a viewpoint. Borrowed.
   const Eigen::Vector3d* up = nullptr;
-  Progress progress = {};  ///< called with the fraction of the points that are joined
+  int threads = 0;         ///< at most this many threads for fitting normals; 0: one per processor
+  Progress progress = {};  ///< called with the fraction of the points that are joined or fitted
 };
 
 /// Counts and timing of a call of orientedFrames().

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -85,27 +86,33 @@ Eigen::Vector3d upright(const Eigen::Vector3d& normal) {
 
 }  // namespace
 
-void takeFineNormals(const Laplacian& laplacian, Frames& frames) {
-  Rings rings(laplacian.L);
-  std::vector<Eigen::RowVector3d> offsets;
-  OffsetBuffer buffer;
-  for (int p = 0; p < static_cast<int>(frames.normals.rows()); ++p) {
-    if (laplacian.status[p] != PointStatus::active) continue;
-    takeOffsets(p, laplacian.positions, rings, offsets);
-    if (offsets.empty()) continue;
-    buffer.fill(static_cast<int>(offsets.size()), [&](int i) { return offsets[i]; });
-    const Offsets all = buffer.view(), nearest{countFew(offsets), all.x, all.y, all.z};
-    const Eigen::Vector3d before = frames.normals.row(p), tangent = frames.tangents.row(p);
-    const std::optional<Fit> bent = quadraticThrough(all, upright(before)), near = planeThrough(nearest);
-    if (!bent || !near) continue;
-    const Eigen::Vector3d& found = near->variance <= bent->variance ? near->normal : bent->normal;
-    const double cosine = found.dot(before);
-    if (!(std::abs(cosine) >= least_agreement)) continue;
-    const Eigen::Vector3d normal = cosine < 0 ? Eigen::Vector3d(-found) : found;
-    frames.normals.row(p) = normal;
-    // The tangent turns with the normal, about the axis perpendicular to both normals.
-    frames.tangents.row(p) = tangent - normal.dot(tangent) / (1 + before.dot(normal)) * (before + normal);
-  }
+void takeFineNormals(const Laplacian& laplacian, const Workers& workers, Frames& frames) {
+  struct Scratch {
+    Rings rings;
+    std::vector<Eigen::RowVector3d> offsets;
+    OffsetBuffer buffer;
+  };
+  std::vector<Scratch> scratches(static_cast<std::size_t>(workers.count()), {Rings(laplacian.L), {}, {}});
+  workers.forBlocks("normals", frames.normals.rows(), costly_block, [&](std::int64_t begin, std::int64_t end, int w) {
+    auto& [rings, offsets, buffer] = scratches[w];
+    for (auto p = static_cast<int>(begin); p < end; ++p) {
+      if (laplacian.status[p] != PointStatus::active) continue;
+      takeOffsets(p, laplacian.positions, rings, offsets);
+      if (offsets.empty()) continue;
+      buffer.fill(static_cast<int>(offsets.size()), [&](int i) { return scratches[w].offsets[i]; });
+      const Offsets all = buffer.view(), nearest{countFew(offsets), all.x, all.y, all.z};
+      const Eigen::Vector3d before = frames.normals.row(p), tangent = frames.tangents.row(p);
+      const std::optional<Fit> bent = quadraticThrough(all, upright(before)), near = planeThrough(nearest);
+      if (!bent || !near) continue;
+      const Eigen::Vector3d& found = near->variance <= bent->variance ? near->normal : bent->normal;
+      const double cosine = found.dot(before);
+      if (!(std::abs(cosine) >= least_agreement)) continue;
+      const Eigen::Vector3d normal = cosine < 0 ? Eigen::Vector3d(-found) : found;
+      frames.normals.row(p) = normal;
+      // The tangent turns with the normal, about the axis perpendicular to both normals.
+      frames.tangents.row(p) = tangent - normal.dot(tangent) / (1 + before.dot(normal)) * (before + normal);
+    }
+  });
 }
 
 }  // namespace tufted

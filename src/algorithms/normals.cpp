@@ -305,8 +305,9 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
   OrientationReport made;
   Frames result = frames;
   const bool is_fine = laplacian.kind == Kind::cloud && frames.orientation != Orientation::given;
+  const Workers workers(options.threads, options.progress);
   if (options.viewpoint != nullptr) {
-    if (is_fine) takeFineNormals(laplacian, result);
+    if (is_fine) takeFineNormals(laplacian, workers, result);
     const Eigen::RowVector3d viewpoint = options.viewpoint->transpose() / 2;
     for (Eigen::Index i = 0; i < result.normals.rows(); ++i) {
       if (laplacian.status[i] != PointStatus::active) continue;
@@ -316,7 +317,7 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
     turnOutwards(laplacian, options.up, result.normals, made);  // triangles already give consistent signs
   } else {
     orientAlike(laplacian, options, result.normals, made);
-    if (is_fine) takeFineNormals(laplacian, result);
+    if (is_fine) takeFineNormals(laplacian, workers, result);
   }
   for (Eigen::Index i = 0; i < result.normals.rows(); ++i) {
     const int source = laplacian.representative[i];

@@ -13,7 +13,7 @@ namespace tufted::detail {
 
 PointValues normalsAndCurvature(const Laplacian& laplacian, const Eigen::Vector3d* viewpoint, bool curvature,
                                 int threads) {
-  const Frames frames = orientedFrames(laplacian, {.viewpoint = viewpoint});
+  const Frames frames = orientedFrames(laplacian, {.viewpoint = viewpoint, .threads = threads});
   PointValues values(laplacian.M.size(), 4);
   values.leftCols(3) = frames.normals.cast<float>();
   values.col(3).setConstant(std::numeric_limits<float>::quiet_NaN());
@@ -22,7 +22,7 @@ PointValues normalsAndCurvature(const Laplacian& laplacian, const Eigen::Vector3
 }
 
 PointValues principalCurvatures(const Laplacian& laplacian, const Eigen::Vector3d* viewpoint, int threads) {
-  const Frames frames = orientedFrames(laplacian, {.viewpoint = viewpoint});
+  const Frames frames = orientedFrames(laplacian, {.viewpoint = viewpoint, .threads = threads});
   const Curvatures found = curvatures(laplacian, frames, {.threads = threads});
   PointValues values(laplacian.M.size(), 5);
   values << found.first.cast<float>(), found.principal.cast<float>();

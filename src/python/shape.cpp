@@ -29,12 +29,14 @@ py::tuple tupleOf(Frames frames) {
 
 py::tuple oriented(const Laplacian& laplacian, Points normals, Points tangents, int orientation,
                    const std::optional<Eigen::Vector3d>& viewpoint, const std::optional<Eigen::Vector3d>& up,
-                   const py::object& progress) {
+                   int threads, const py::object& progress) {
   const Frames frames = framesFrom(std::move(normals), std::move(tangents), orientation);
   return tupleOf(run(progress, [&](const Progress& called) {
-    return orientedFrames(
-        laplacian, frames,
-        {.viewpoint = viewpoint ? &*viewpoint : nullptr, .up = up ? &*up : nullptr, .progress = called});
+    return orientedFrames(laplacian, frames,
+                          {.viewpoint = viewpoint ? &*viewpoint : nullptr,
+                           .up = up ? &*up : nullptr,
+                           .threads = threads,
+                           .progress = called});
   }));
 }
 

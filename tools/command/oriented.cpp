@@ -48,7 +48,9 @@ tufted::Frames orientedFrames(const Orienting& orienting, const Operator& source
   }
   tufted::OrientationReport made;
   frames = tufted::orientedFrames(
-      laplacian, frames, {.up = source.up.isZero(0) ? nullptr : &source.up, .progress = source.progress}, &made);
+      laplacian, frames,
+      {.up = source.up.isZero(0) ? nullptr : &source.up, .threads = source.threads, .progress = source.progress},
+      &made);
   results.report["orientation"] = {{"towards", "outside"},
                                    {"components", made.components},
                                    {"open", made.open},

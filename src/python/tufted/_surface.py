@@ -245,7 +245,8 @@ class Surface(Spectral, Distances, Equations, Shape):
             up = check.vector_of_three("normals", "up", up)
 
         def oriented():
-            return _tufted.oriented_frames(self._laplacian, *self._frame_parts(), orientation, viewpoint, up, progress)
+            return _tufted.oriented_frames(self._laplacian, *self._frame_parts(), orientation, viewpoint, up,
+                                           self._solving["threads"], progress)
 
         return self._keep("signed frames", oriented) if viewpoint is None and up is None else oriented()
 
