@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <new>
 #include <stdexcept>
 
 #include "view/font_data.h"
@@ -39,9 +40,13 @@ struct Canvas::Font {
   FT_Face face = nullptr;
 
   Font() {
-    if (FT_Init_FreeType(&library) != 0 ||
-        FT_New_Memory_Face(library, font_data, static_cast<FT_Long>(font_size), 0, &face) != 0)
-      throw std::runtime_error("drawPicture: FreeType cannot read its font");
+    FT_Error error = FT_Init_FreeType(&library);
+    if (error == 0) {
+      error = FT_New_Memory_Face(library, font_data, static_cast<FT_Long>(font_size), 0, &face);
+      if (error != 0) FT_Done_FreeType(library);
+    }
+    if (error == FT_Err_Out_Of_Memory) throw std::bad_alloc();
+    if (error != 0) throw std::runtime_error("drawPicture: FreeType cannot read its font");
   }
   ~Font() {
     FT_Done_Face(face);
