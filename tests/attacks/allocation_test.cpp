@@ -205,8 +205,13 @@ TEST(Allocation, PagesAndPicturesFailCleanly) {
     if (pageOf(scene) != expected) throw std::logic_error("another page");
   };
   failEach("page", page, 1, 0, larger_than_json);
-  failEach(
-      "picture", [&] { writePicture(dir.path() / "x.png", scene, {.width = 64, .height = 64, .threads = 1}); }, 7);
+  const PictureOptions options = {.width = 64, .height = 64, .threads = 1};
+  const std::vector<std::uint8_t> pixels = drawPicture(scene, options).pixels;
+  const auto picture = [&] {
+    writePicture(dir.path() / "x.png", scene, options);
+    if (drawPicture(scene, options).pixels != pixels) throw std::logic_error("another picture");
+  };
+  failEach("picture", picture, 7);
   for (const fs::directory_entry& entry : fs::directory_iterator(dir.path()))
     EXPECT_NE(entry.path().filename().string().front(), '.') << entry << " was left behind";
 }
