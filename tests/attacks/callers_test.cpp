@@ -55,7 +55,7 @@ void expectSameBits(const Laplacian& a, const Laplacian& b) {
 }
 
 TEST(Threads, OfAnyNumberGiveTheSameBitsOnOddClouds) {
-  for (int i = 0; i < rounds(20); ++i) {
+  for (int i = 0; i < rounds(10); ++i) {
     SCOPED_TRACE("seed " + std::to_string(101 + i));
     const Points points = oddCloud(static_cast<std::uint64_t>(101 + i), 9000);
     CloudOptions options = cloudOptions(i % 2 == 0 ? Preset::scan : Preset::clean);
@@ -70,7 +70,7 @@ TEST(Threads, OfAnyNumberGiveTheSameBitsOnOddClouds) {
 }
 
 TEST(Threads, OfAnyNumberGiveTheSameBitsOnOddMeshes) {
-  for (int i = 0; i < rounds(20); ++i) {
+  for (int i = 0; i < rounds(10); ++i) {
     SCOPED_TRACE("seed " + std::to_string(101 + i));
     Soup soup = oddSoup(static_cast<std::uint64_t>(101 + i));
     const int copies = 200;  // enough for several blocks, joined at the vertices of the first
@@ -310,10 +310,10 @@ double residentMegabytes() {
 }
 
 TEST(Soak, FramesOfAnyKindTakeNoMoreMemoryAndFiles) {
-  constexpr double most_growth = 16;  // MB; 3 kB per frame in the long run of 5,000
+  constexpr double most_growth = 16;  // MB; 3 kB per frame in a run of 5,000
   const TemporaryDir dir;
   LaplacianBuilder builder;
-  const int frames = rounds(100), files = openFiles();
+  const int frames = rounds(50), files = openFiles();
   double after_warm_up = 0;
   for (int i = 0; i < frames; ++i) {
     const auto seed = static_cast<std::uint64_t>(101 + i % 200);
