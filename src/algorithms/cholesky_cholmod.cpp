@@ -56,6 +56,24 @@ struct FreeFactor {
 };
 using Factor = std::unique_ptr<cholmod_factor, FreeFactor>;
 
+/// A dense matrix of CHOLMOD.
+class DenseMatrix {
+ public:
+  DenseMatrix(std::size_t rows, std::size_t cols, Common& common)
+      : common_(common), matrix_(cholmod_l_allocate_dense(rows, cols, rows, CHOLMOD_REAL, common.get())) {
+    if (matrix_ == nullptr) throw std::bad_alloc();
+  }
+  ~DenseMatrix() { cholmod_l_free_dense(&matrix_, common_.get()); }
+  DenseMatrix(const DenseMatrix&) = delete;
+  DenseMatrix& operator=(const DenseMatrix&) = delete;
+  cholmod_dense** handle() { return &matrix_; }
+  const double* data() const { return static_cast<const double*>(matrix_->x); }
+
+ private:
+  Common& common_;
+  cholmod_dense* matrix_;
+};
+
 /// Computes the numeric factor. False if the matrix is not positive definite.
 bool computeFactor(cholmod_sparse& matrix, cholmod_factor& factor, Common& common) {
   const SerialBlas serial;
@@ -79,10 +97,14 @@ class CholmodBackend : public LinearBackend {
     b.x = x.data();
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* solution = cholmod_l_solve(CHOLMOD_A, factor_.get(), &b, common.get());
-    if (solution == nullptr) throw std::bad_alloc();
-    x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), x.rows(), x.cols());
-    cholmod_l_free_dense(&solution, common.get());
+    // The solution and the scratch memory of a supernodal solve. CHOLMOD would crash if it took the first scratch
+    // itself and there was no memory, because its success with the second one clears the error.
+    DenseMatrix solution(b.nrow, b.ncol, common), permuted(b.nrow, b.ncol, common);
+    DenseMatrix rows_below(b.ncol, factor_->maxesize, common);
+    const int is_solved = cholmod_l_solve2(CHOLMOD_A, factor_.get(), &b, nullptr, solution.handle(), nullptr,
+                                           permuted.handle(), rows_below.handle(), common.get());
+    if (is_solved == 0) throw std::bad_alloc();
+    x = Eigen::Map<const Eigen::MatrixXd>(solution.data(), x.rows(), x.cols());
     return 0;
   }
 

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <exception>
+#include <new>
 #include <system_error>
 
 #include "io/errors.h"
@@ -33,8 +34,8 @@ void refuseOdd(const fs::path& path) {
 
 StagedFiles::StagedFiles(const fs::path& dir) : dir_(dir) {
   int attempts = 100;  // another process may make the directory and remove it again
-  while (!makeHiddenFolder(attempts > 1)) --attempts;
   try {
+    while (!makeHiddenFolder(attempts > 1)) --attempts;
     OpenPath(dir_, O_DIRECTORY, dir_);  // fails now instead of in commit()
   } catch (...) {
     removeHiddenFolder();
@@ -79,8 +80,14 @@ bool StagedFiles::makeHiddenFolder(bool may_vanish) {
     if (may_vanish && error == ENOENT) return false;
     refuseErrno(dir_, "write", error);
   }
-  hidden_ = name;
-  old_ = hidden_ / "old";
+  try {
+    fs::path hidden = name;
+    old_ = hidden / "old";
+    hidden_.swap(hidden);
+  } catch (const std::bad_alloc&) {
+    ::rmdir(name.c_str());
+    throw;
+  }
   return true;
 }
 
@@ -99,13 +106,12 @@ std::vector<std::string> StagedFiles::names() const {
 
 void StagedFiles::keepOld(File& file) {
   const char* const name = file.path.shown.c_str();
-  const fs::path old = oldOf(file);
   refuseOdd(file.path.shown);  // another process may have made it since stage()
   // A hard link first, so that the name always refers to a file.
-  file.has_old = ::linkat(AT_FDCWD, name, AT_FDCWD, old.c_str(), 0) == 0;
+  file.has_old = ::linkat(AT_FDCWD, name, AT_FDCWD, file.old.c_str(), 0) == 0;
   if (file.has_old || errno == ENOENT) return;
   // Some file systems have no hard links, and files of other users may not be linked to.
-  file.has_old = ::rename(name, old.c_str()) == 0;
+  file.has_old = ::rename(name, file.old.c_str()) == 0;
   if (!file.has_old && errno != ENOENT) refuseErrno(file.path.shown, "write", errno);
 }
 
@@ -122,7 +128,7 @@ bool StagedFiles::putBack() {
   bool is_back = true;
   for (File& file : files_) {
     if (file.has_old)
-      is_back &= ::rename(oldOf(file).c_str(), file.path.shown.c_str()) == 0;
+      is_back &= ::rename(file.old.c_str(), file.path.shown.c_str()) == 0;
     else if (file.is_placed)
       is_back &= ::unlink(file.path.shown.c_str()) == 0;
   }
@@ -140,7 +146,11 @@ void StagedFiles::syncParents() const {
 }
 
 void StagedFiles::commit() {
-  for (const File& file : files_) OpenPath(file.path.path, O_NOFOLLOW, file.path.shown).sync();
+  for (File& file : files_) {
+    OpenPath(file.path.path, O_NOFOLLOW, file.path.shown).sync();
+    file.old = oldOf(file);
+  }
+  fs::path replaced = hidden_ / "replaced";
   const OpenPath dir(dir_, O_DIRECTORY, dir_);
   dir.lock();
   if (::mkdir(old_.c_str(), 0700) != 0) refuseErrno(dir_, "write", errno);
@@ -151,25 +161,29 @@ void StagedFiles::commit() {
     dir.sync();
     syncParents();
   } catch (const std::exception& error) {
-    if (putBack()) throw;
-    hidden_.clear();  // keeps the hidden folder
+    if (putBack()) throw;  // takes no memory, of which there may be none
+    hidden_.clear();       // keeps the hidden folder
     throw IoError(std::string(error.what()) + "; what was there before could not be put back from " + old_.string());
   }
   made_.clear();
-  const fs::path replaced = hidden_ / "replaced";  // old/ disappears in one step, as it marks an unfinished commit
-  if (::rename(old_.c_str(), replaced.c_str()) == 0) old_ = replaced;
+  // old/ disappears in one step, as it marks an unfinished commit.
+  if (::rename(old_.c_str(), replaced.c_str()) == 0) old_.swap(replaced);
 }
 
-void StagedFiles::removeHiddenFolder() {
+void StagedFiles::removeHiddenFolder() noexcept {
   if (hidden_.empty()) return;
   // Only files known by name, so that no mistake can remove other files.
-  std::error_code ignored;
-  for (const File& file : files_) {
-    fs::remove(file.path.path, ignored);
-    fs::remove(oldOf(file), ignored);
+  for (const File& file : files_) ::unlink(file.path.path.c_str());
+  const int old = ::open(old_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (old >= 0) {
+    for (const File& file : files_) {
+      const std::string& path = file.path.path.native();
+      ::unlinkat(old, path.c_str() + path.rfind('/') + 1, 0);
+    }
+    ::close(old);
   }
-  fs::remove(old_, ignored);
-  fs::remove(hidden_, ignored);
+  ::rmdir(old_.c_str());
+  ::rmdir(hidden_.c_str());
 }
 
 void StagedFiles::removeMade() {

@@ -39,8 +39,9 @@ class StagedFiles {
  private:
   struct File {
     OutputPath path;
-    bool has_old = false;    ///< whether an existing file of that name was moved or linked to old/
-    bool is_placed = false;  ///< whether the new file was renamed
+    std::filesystem::path old = {};  ///< in old/, set by commit() before anything is renamed
+    bool has_old = false;            ///< whether an existing file of that name was moved or linked to old/
+    bool is_placed = false;          ///< whether the new file was renamed
   };
 
   /// Makes `dir_` with its parents.
@@ -56,7 +57,8 @@ class StagedFiles {
   bool putBack();
   /// Flushes the names of the directories that were made to disk.
   void syncParents() const;
-  void removeHiddenFolder();
+  /// Takes no memory, because it is called when there is none left.
+  void removeHiddenFolder() noexcept;
   /// Removes the directories that were made and are empty.
   void removeMade();
 

@@ -1,5 +1,21 @@
 #include "neighbors/kd_forest.h"
 
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+// FLANN writes its nodes to whatever malloc() returns, null as well, so its allocator gets one that throws.
+namespace {
+void* mallocOrThrow(std::size_t bytes) {
+  void* const memory = std::malloc(bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+#define malloc mallocOrThrow
+#include <flann/util/allocator.h>
+#undef malloc
+
 #include <flann/algorithms/dist.h>
 #include <flann/algorithms/kdtree_single_index.h>
 

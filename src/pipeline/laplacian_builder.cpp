@@ -1,5 +1,8 @@
 #include "tufted/laplacian_builder.h"
 
+#include <optional>
+
+#include "base/buffer.h"
 #include "base/workspace.h"
 #include "pipeline/build.h"
 
@@ -9,8 +12,12 @@ struct LaplacianBuilder::State {
   Workspace workspace;
   Laplacian result;
 
+  /// Takes the place of L in forget(), because a new matrix, though empty, takes memory.
+  std::optional<SparseMatrix> no_entries;
+
   template <class Build>
   const Laplacian& run(const Build& build) {
+    if (!no_entries) no_entries.emplace();
     const Workspace::Scope scope(&workspace);
     try {
       build();
@@ -23,9 +30,18 @@ struct LaplacianBuilder::State {
     return result;
   }
 
-  void forget() {
-    result = {};
-    SparseMatrix().swap(result.L);  // assignment would keep the memory
+  /// Empties the result and frees its memory. Takes none, because it is called when there is none left.
+  void forget() noexcept {
+    if (!no_entries) return;  // nothing was built since the last call
+    result.L.swap(*no_entries);
+    no_entries.reset();
+    const auto freeAll = [](auto&... arrays) { (tufted::release(arrays), ...); };
+    freeAll(result.M, result.cover_areas, result.status, result.representative, result.boundary, result.component,
+            result.frames.normals, result.frames.tangents, result.positions, result.noise, result.component_edges);
+    result.kind = Kind::mesh;
+    result.frames.orientation = Orientation::arbitrary;
+    result.report = {};
+    result.cover_source.reset();
   }
 };
 

@@ -20,6 +20,16 @@ void countBoundary(Boundary boundary, Report& report) {
   report.lost_points += boundary == Boundary::lost ? 1 : 0;
 }
 
+/// Frees arrays that have another number of rows. If Eigen finds no memory for a new size, its array still points to
+/// the memory of the old one, which is freed already, and frees it again in the end.
+template <class... Arrays>
+void freeUnlessSized(Eigen::Index rows, Arrays&... arrays) {
+  const auto freeOne = [rows](auto& array) {
+    if (array.rows() != rows) array.resize(0, array.cols());
+  };
+  (freeOne(arrays), ...);
+}
+
 }  // namespace
 
 void checkBuild(const char* function, double mollify, int threads) {
@@ -33,6 +43,8 @@ void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& w
   result.kind = kind;
   if (result.hasCover() && result.cover_source->stored() == nullptr) result.cover_source.reset();
   result.component.clear();
+  freeUnlessSized(points, result.M, result.cover_areas, result.frames.normals, result.frames.tangents, result.positions,
+                  result.noise);
   std::vector<StageCost> stages = std::move(result.report.stages);
   stages.clear();
   result.report = {};

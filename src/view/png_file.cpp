@@ -2,17 +2,20 @@
 
 #include <png.h>
 
-#include <stdexcept>
+#include <new>
 #include <vector>
 
 namespace tufted::view {
 
 namespace {
 
-/// Called by libpng for an error; must not return.
-[[noreturn]] void fail(png_structp /*png*/, png_const_charp message) {
-  throw std::runtime_error(std::string("writePicture: libpng: ") + message);
+/// Called by libpng for an error; must not return. All arguments are valid, so there was no memory.
+[[noreturn]] void fail(png_structp /*png*/, png_const_charp /*message*/) {
+  throw std::bad_alloc();
 }
+
+/// Called by libpng for a warning, which it would print otherwise.
+void ignore(png_structp /*png*/, png_const_charp /*message*/) {}
 
 void append(png_structp png, png_bytep bytes, std::size_t size) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), size);
@@ -24,7 +27,7 @@ struct Writer {
   png_infop info = nullptr;
 
   Writer() {
-    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, nullptr);
+    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore);
     if (png != nullptr) info = png_create_info_struct(png);
     if (info == nullptr) {
       png_destroy_write_struct(&png, nullptr);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
+#include <new>
 
 #include "view/font_data.h"
 
@@ -39,9 +39,12 @@ struct Canvas::Font {
   FT_Face face = nullptr;
 
   Font() {
-    if (FT_Init_FreeType(&library) != 0 ||
-        FT_New_Memory_Face(library, font_data, static_cast<FT_Long>(font_size), 0, &face) != 0)
-      throw std::runtime_error("drawPicture: FreeType cannot read its font");
+    FT_Error error = FT_Init_FreeType(&library);
+    if (error == 0) {
+      error = FT_New_Memory_Face(library, font_data, static_cast<FT_Long>(font_size), 0, &face);
+      if (error != 0) FT_Done_FreeType(library);
+    }
+    if (error != 0) throw std::bad_alloc();  // the font is part of the library and valid
   }
   ~Font() {
     FT_Done_Face(face);
@@ -53,8 +56,9 @@ struct Canvas::Font {
   void setSize(double size) { FT_Set_Char_Size(face, 0, static_cast<FT_F26Dot6>(std::lround(size * 64)), 72, 72); }
   /// Renders a character; null if that fails.
   FT_GlyphSlot load(char32_t character) {
-    if (FT_Load_Char(face, character, FT_LOAD_RENDER | FT_LOAD_NO_HINTING) != 0) return nullptr;
-    return face->glyph;
+    const FT_Error error = FT_Load_Char(face, character, FT_LOAD_RENDER | FT_LOAD_NO_HINTING);
+    if (error == FT_Err_Out_Of_Memory) throw std::bad_alloc();
+    return error == 0 ? face->glyph : nullptr;
   }
 };
 

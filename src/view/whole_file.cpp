@@ -62,8 +62,10 @@ void removeHidden(const std::string& file, const std::string& folder) {
 WholeFile::WholeFile(const std::filesystem::path& path, std::string_view bytes)
     : shown_(path), final_(behindLinks(path)) {
   folder_ = (nearestDirectory(final_.parent_path()) / ".tufted-XXXXXX").string();
+  constexpr std::string_view file_name = "/file";
+  hidden_.reserve(folder_.size() + file_name.size());  // with no memory later, the folder would remain
   if (::mkdtemp(folder_.data()) == nullptr) refuse(shown_, errno);
-  hidden_ = folder_ + "/file";
+  hidden_.append(folder_).append(file_name);
   const int file = ::open(hidden_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   try {
     if (file < 0) refuse(shown_, errno);
