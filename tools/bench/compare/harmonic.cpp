@@ -96,6 +96,7 @@ struct Overshoots {
             all.empty() ? Cell("") : percent(medianOfAll(all), "%.2g %%"),
             percent(worst, "%.3g %%"),
             percent(positive / std::max(tried, 1)),
+            percent(empty / std::max(tried, 1)),
             failed};
   }
 };

@@ -45,6 +45,9 @@ int main(int argc, char** argv) {
       {"density", "Against a step of density", bench::printDensity},
       {"lines", "Against the spacing of scan lines", bench::printLines},
       {"sheets", "Of two squares against their distance", bench::printSheets},
+      {"orders", "Eigenvalues with other orders of faces around edges", bench::printOrders},
+      {"distance", "Errors of distances on the vertices of real shapes", bench::printDistance},
+      {"dataset", "Whether all guarantees hold on the meshes of a folder", bench::printDataset},
   };
   bench::Settings settings;
   std::string json;
@@ -64,7 +67,10 @@ int main(int argc, char** argv) {
   app.add_option("--rivals", settings.rivals, "Only these")->delimiter(';');
   app.add_option("-k", settings.k, "Neighbours, instead of the number of each rival");
   app.add_option("--json", json, "Write the rows to this file as well");
-  for (const Command& command : commands) app.add_subcommand(command.name, command.purpose);
+  for (const Command& command : commands) {
+    CLI::App* added = app.add_subcommand(command.name, command.purpose);
+    if (command.print == bench::printDataset) added->add_option("DIR", settings.meshes, "Folder, with its subfolders");
+  }
   CLI11_PARSE(app, argc, argv);
   try {
     for (const Command& command : commands) {

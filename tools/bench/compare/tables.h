@@ -20,7 +20,7 @@ struct Settings {
   double noise = 0;
   std::uint64_t first_seed = 101;
   int seeds = 1;
-  int shapes = 100;                 ///< at most this many real shapes
+  int shapes = 6;                   ///< at most this many real shapes
   std::vector<std::string> rivals;  ///< empty: all
   int k = 0;                        ///< instead of the one of each rival, if not 0
 
@@ -47,5 +47,8 @@ Json printLines(const Settings& settings);     ///< against the spacing of scan 
 Json printSheets(const Settings& settings);    ///< against the distance of two sheets
 Json printBoundary(const Settings& settings);  ///< how far harmonic functions leave the range of their pins
 Json printGreen(const Settings& settings);     ///< sizes, times and signs of Green's functions for several k
+Json printOrders(const Settings& settings);    ///< eigenvalues with other orders of faces around edges
+Json printDistance(const Settings& settings);  ///< errors of distances on the vertices of real shapes
+Json printDataset(const Settings& settings);   ///< whether all guarantees hold on the meshes of a folder
 
 }  // namespace tufted::bench
