@@ -89,15 +89,10 @@ struct Overshoots {
     }
   }
   std::vector<Cell> row(const char* kind, const std::string& name) const {
-    return {kind,
-            name,
-            tried,
-            broken,
-            all.empty() ? Cell("") : percent(medianOfAll(all), "%.2g %%"),
-            percent(worst, "%.3g %%"),
-            percent(positive / std::max(tried, 1)),
-            percent(empty / std::max(tried, 1)),
-            failed};
+    const double share = 1.0 / std::max(tried, 1);
+    const Cell median = all.empty() ? Cell("") : percent(medianOfAll(all), "%.2g %%");
+    const Cell greatest = percent(worst, "%.3g %%");
+    return {kind, name, tried, broken, median, greatest, percent(positive * share), percent(empty * share), failed};
   }
 };
 
@@ -123,44 +118,51 @@ Json printBoundary(const Settings& settings) {
 }
 
 Json printGreen(const Settings& settings) {
-  constexpr int sources = 4;
+  constexpr std::array<int, 3> neighbors = {15, 30, 60};
+  constexpr int sources = 4, most_clouds = 3;
   const int n = settings.pointsOr(4000);
   std::vector<Points> clouds;
-  for (const RealShape& shape : shapesOf(settings, 0)) {
-    if (clouds.size() == 3) break;
-    clouds.push_back(sampleOf(shape, n, settings.noise, settings.first_seed).points);
-  }
+  for (const RealShape& shape : shapesOf(settings, 0))
+    if (clouds.size() < most_clouds) clouds.push_back(sampleOf(shape, n, settings.noise, settings.first_seed).points);
+  const std::vector<int> drawn = shapes::Random(settings.first_seed).permutation(n);
+  const Pinned sink = {{drawn[0]}, Eigen::MatrixXd::Zero(1, sources)};
+  Eigen::MatrixXd f = Eigen::MatrixXd::Zero(n, sources);
+  for (int s = 0; s < sources; ++s) f(drawn[s + 1], s) = 1;
   Table table(
-      {"Laplacian", "k", "nonzeros per row", "build, s", "factor, s", "solve, ms", "least value over greatest"});
+      {"Laplacian, k = 15; 30; 60", "nonzeros per row", "build, s", "factor, s", "solve, ms", "least over greatest"});
   for (const CloudRival& rival : rivalsOf(settings)) {
-    for (const int k : {15, 30, 60}) {
-      double entries = 0, build = 0, factor = 0, solve = 0, least = 0;
+    std::vector<Cell> row = {rival.name, "", "", "", "", ""};
+    const auto add = [&row](std::size_t column, const Cell& cell) {
+      row[column].text += (row[column].text.empty() ? "" : "; ") + cell.text;
+      if (!row[column].value.is_array()) row[column].value = Json::array();
+      row[column].value.push_back(cell.value);
+    };
+    for (const int k : neighbors) {
+      double entries = 0, build = 0, least = 0;
+      std::array<double, 2> solve{};
       bool failed = false;
       for (const Points& points : clouds) {
+        const auto share = 1 / static_cast<double>(clouds.size());
         const Stopwatch watch;
         const Operators operators = rival.build(points, k);
-        build += watch.seconds();
-        entries += static_cast<double>(operators.L.nonZeros()) / n;
-        const std::vector<int> drawn = shapes::Random(settings.first_seed).permutation(n);
-        Eigen::MatrixXd f = Eigen::MatrixXd::Zero(n, sources);
-        for (int s = 0; s < sources; ++s) f(drawn[s + 1], s) = 1;
+        build += share * watch.seconds();
+        entries += share * static_cast<double>(operators.L.nonZeros()) / n;
         std::array<double, 2> seconds{};
-        const auto green =
-            solvePinned(operators.L, rival.symmetric, f, {{drawn[0]}, Eigen::MatrixXd::Zero(1, sources)}, &seconds);
-        factor += seconds[0], solve += seconds[1] / sources;
+        const auto green = solvePinned(operators.L, rival.symmetric, f, sink, &seconds);
+        for (int i = 0; i < 2; ++i) solve[i] += share * seconds[i];
         failed = failed || !green;
         for (int s = 0; green && s < sources; ++s) {
-          double low = 0, high = 0;
-          for (const double value : green->col(s))
-            if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
-          if (high > 0) least = std::min(least, low / high);
+          const VectorXd g = green->col(s).array().isFinite().select(green->col(s), 0);
+          if (g.maxCoeff() > 0) least = std::min(least, g.minCoeff() / g.maxCoeff());
         }
       }
-      const auto count = static_cast<double>(clouds.size());
-      table.row({rival.name, k, Cell("%.1f", entries / count), Cell("%.2f", build / count),
-                 Cell("%.2f", factor / count), Cell("%.1f", 1000 * solve / count),
-                 failed ? Cell("no factor") : Cell("%.2g", least)});
+      add(1, Cell("%.0f", entries));
+      add(2, Cell("%.2f", build));
+      add(3, Cell("%.2f", solve[0]));
+      add(4, Cell("%.1f", 1000 * solve[1] / sources));
+      add(5, failed ? Cell("no factor") : Cell("%.2g", least));
     }
+    table.row(row);
   }
   return table.json();
 }

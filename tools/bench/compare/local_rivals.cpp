@@ -48,13 +48,15 @@ VectorXd starAreas(const Points& points) {
   VectorXd areas = VectorXd::Zero(points.rows());
   for (int p = 0; p < points.rows(); ++p) {
     const Patch patch = patchOf(nearest, p, plane_neighbors);
-    const oracles::PlanarStar star = starOf(patch, plane_neighbors);
-    for (const auto& [i, j] : star.triangles) {
+    for (const auto& [i, j] : starOf(patch, plane_neighbors).triangles) {
       const Eigen::RowVector2d a = patch.plane.row(i), b = patch.plane.row(j);
-      const double twice_area = crossOf(a, b);
-      // Meyer et al. 2003, Equation 7; the parts outside of obtuse triangles cancel in a closed Delaunay star.
-      areas[p] += star.closed ? (a.squaredNorm() * b.dot(b - a) + b.squaredNorm() * a.dot(a - b)) / twice_area / 8
-                              : twice_area / 6;
+      const double twice_area = crossOf(a, b), at_p = a.dot(b), at_a = a.dot(a - b), at_b = b.dot(b - a);
+      if (at_p < 0)
+        areas[p] += twice_area / 4;
+      else if (at_a < 0 || at_b < 0)
+        areas[p] += twice_area / 8;
+      else  // Equation 7
+        areas[p] += (a.squaredNorm() * at_b + b.squaredNorm() * at_a) / twice_area / 8;
     }
   }
   return areas;

@@ -14,8 +14,8 @@ namespace tufted::bench {
 
 using oracles::Operators;
 
-/// Areas of points by their Delaunay stars in the tangent plane: the Voronoi cell of a point inside of its star,
-/// otherwise a third of its triangles.
+/// Mixed areas (Meyer et al. 2003) of points in their Delaunay stars in the tangent plane: of the Voronoi cell, but not
+/// beyond the triangles of the star.
 VectorXd starAreas(const Points& points);
 
 /// Belkin, Sun and Wang 2009 (for meshes 2008): row p is the integral of exp(-d^2 / 4t) / (4 pi t^2) (u(p) - u(q)) over

@@ -71,7 +71,10 @@ std::string notReal(const Result& result) {
 }
 
 Cell errorCell(const Result& result, double error) {
-  return result.errors.empty() ? Cell("no spectrum") : percent(error);
+  if (result.errors.empty()) return "no spectrum";
+  Cell cell = percent(error);
+  if (error > 10) cell.text = "over 1000 %";
+  return cell;
 }
 
 /// One row per rival, one column of mean errors per condition.
