@@ -20,10 +20,7 @@ struct Case {
   VectorXd eigenvalues;
 };
 /// Cases of one column of a table.
-struct Column {
-  std::string name;
-  std::vector<Case> cases;
-};
+using Column = std::vector<Case>;
 
 /// What a rival does on some cases.
 struct Result {
@@ -38,7 +35,7 @@ struct Result {
   }
 };
 
-Result measure(const CloudRival& rival, int k, const std::vector<Case>& cases) {
+Result measure(const CloudRival& rival, int k, const Column& cases) {
   Result result;
   for (const Case& c : cases) {
     const auto zeros = static_cast<int>((c.eigenvalues.array() == 0).count());
@@ -77,17 +74,33 @@ Cell errorCell(const Result& result, double error) {
   return cell;
 }
 
-/// One row per rival, one column of mean errors per condition.
-Json printConditions(const Settings& settings, const std::vector<Column>& columns) {
+/// The clouds that `make` draws for each seed.
+template <class Make>
+Column columnOf(const Settings& settings, const Make& make) {
+  Column column;
+  for (int s = 0; s < settings.seeds; ++s) {
+    const shapes::Cloud cloud = make(settings.first_seed + static_cast<std::uint64_t>(s));
+    column.push_back({cloud.points, cloud.eigenvalues});
+  }
+  return column;
+}
+
+/// One row per rival, one column of mean errors per number, for which make(number, seed) draws clouds.
+template <class Make>
+Json printConditions(const Settings& settings, const char* name, const std::vector<double>& numbers, const Make& make) {
+  std::vector<Column> columns;
   std::vector<std::string> names = {"Laplacian"};
-  for (const Column& column : columns) names.push_back(column.name);
+  for (const double number : numbers) {
+    columns.push_back(columnOf(settings, [&](std::uint64_t seed) { return make(number, seed); }));
+    names.push_back(Cell(name, number).text);
+  }
   names.emplace_back("not real and positive");
   Table table(names);
   for (const CloudRival& rival : rivalsOf(settings)) {
     std::vector<Cell> row = {rival.name};
     Result all;
     for (const Column& column : columns) {
-      const Result result = measure(rival, settings.k > 0 ? settings.k : rival.k, column.cases);
+      const Result result = measure(rival, settings.k > 0 ? settings.k : rival.k, column);
       row.push_back(errorCell(result, result.mean()));
       all.complex += result.complex, all.negative += result.negative, all.failed += result.failed;
     }
@@ -97,26 +110,11 @@ Json printConditions(const Settings& settings, const std::vector<Column>& column
   return table.json();
 }
 
-/// The clouds that `make` draws for each seed.
-template <class Make>
-Column columnOf(const Settings& settings, const std::string& name, const Make& make) {
-  Column column{name, {}};
-  for (int s = 0; s < settings.seeds; ++s) {
-    const shapes::Cloud cloud = make(settings.first_seed + static_cast<std::uint64_t>(s));
-    column.cases.push_back({cloud.points, cloud.eigenvalues});
-  }
-  return column;
-}
-
-std::string withNumber(const char* format, double number) {
-  return Cell(format, number).text;
-}
-
 }  // namespace
 
 Json printSpectrum(const Settings& settings) {
   const int n = settings.pointsOr(8000);
-  std::vector<Case> real;
+  Column real;
   for (const RealShape& shape : shapesOf(settings, compared)) {
     VectorXd eigenvalues(compared + 1);
     eigenvalues << 0, shape.eigenvalues;
@@ -129,17 +127,16 @@ Json printSpectrum(const Settings& settings) {
     const double spacing = std::sqrt(cloud.area / n);
     return settings.noise > 0 ? shapes::withNoise(cloud, settings.noise * spacing, seed + 100) : cloud;
   };
-  const auto sphere = columnOf(settings, "", [&](std::uint64_t seed) {
-    return noisy(shapes::sphere(n, shapes::Sampling::uniform, seed), seed);
-  });
+  const auto sphere = columnOf(
+      settings, [&](std::uint64_t seed) { return noisy(shapes::sphere(n, shapes::Sampling::uniform, seed), seed); });
   const auto torus = columnOf(
-      settings, "", [&](std::uint64_t seed) { return noisy(shapes::torus(n, shapes::Sampling::uniform, seed), seed); });
+      settings, [&](std::uint64_t seed) { return noisy(shapes::torus(n, shapes::Sampling::uniform, seed), seed); });
   Table table({"Laplacian", std::to_string(real.size()) + " real clouds, median", "worst", "sphere", "torus",
                "not real and positive", "build, s"});
   for (const CloudRival& rival : rivalsOf(settings)) {
     const int k = settings.k > 0 ? settings.k : rival.k;
-    const Result result = measure(rival, k, real), on_sphere = measure(rival, k, sphere.cases),
-                 on_torus = measure(rival, k, torus.cases);
+    const Result result = measure(rival, k, real), on_sphere = measure(rival, k, sphere),
+                 on_torus = measure(rival, k, torus);
     const auto& errors = result.errors;
     table.row({rival.name, errors.empty() ? Cell("no spectrum") : percent(medianOfAll(errors)),
                errors.empty() ? Cell("") : percent(*std::max_element(errors.begin(), errors.end())),
@@ -151,47 +148,31 @@ Json printSpectrum(const Settings& settings) {
 
 Json printNoise(const Settings& settings) {
   const int n = settings.pointsOr(4000);
-  std::vector<Column> columns;
-  for (const double noise : {0.0, .1, .3, .6, 1.0}) {
-    columns.push_back(columnOf(settings, withNumber("%g spacings", noise), [&](std::uint64_t seed) {
-      const shapes::Cloud torus = shapes::torus(n, shapes::Sampling::uniform, seed);
-      return noise > 0 ? shapes::withNoise(torus, noise * std::sqrt(torus.area / n), seed + 100) : torus;
-    }));
-  }
-  return printConditions(settings, columns);
+  return printConditions(settings, "%g spacings", {0, .1, .3, .6, 1}, [n](double noise, std::uint64_t seed) {
+    const shapes::Cloud torus = shapes::torus(n, shapes::Sampling::uniform, seed);
+    return noise > 0 ? shapes::withNoise(torus, noise * std::sqrt(torus.area / n), seed + 100) : torus;
+  });
 }
 
 Json printDensity(const Settings& settings) {
   const int n = settings.pointsOr(4000);
-  std::vector<Column> columns;
-  for (const double ratio : {1.0, 4.0, 16.0, 100.0}) {
-    columns.push_back(columnOf(settings, withNumber("density 1 to %g", ratio), [&](std::uint64_t seed) {
-      return shapes::torus(n, shapes::Sampling::densityStep(ratio), seed);
-    }));
-  }
-  return printConditions(settings, columns);
+  return printConditions(settings, "density 1 to %g", {1, 4, 16, 100}, [n](double ratio, std::uint64_t seed) {
+    return shapes::torus(n, shapes::Sampling::densityStep(ratio), seed);
+  });
 }
 
 Json printLines(const Settings& settings) {
   const int n = settings.pointsOr(4000);
-  std::vector<Column> columns;
-  for (const double ratio : {1.0, 3.0, 10.0, 30.0}) {
-    columns.push_back(columnOf(settings, withNumber("lines %g times as far apart", ratio), [&](std::uint64_t seed) {
-      return shapes::torus(n, shapes::Sampling::scanLines(ratio), seed);
-    }));
-  }
-  return printConditions(settings, columns);
+  return printConditions(
+      settings, "lines %g times as far apart", {1, 3, 10, 30},
+      [n](double ratio, std::uint64_t seed) { return shapes::torus(n, shapes::Sampling::scanLines(ratio), seed); });
 }
 
 Json printSheets(const Settings& settings) {
   const int n = settings.pointsOr(4000);
-  std::vector<Column> columns;
-  for (const double spacings : {0.5, 1.0, 2.0, 4.0, 8.0}) {
-    columns.push_back(columnOf(settings, withNumber("%g spacings apart", spacings), [&](std::uint64_t seed) {
-      return shapes::twoSheets(n, spacings * std::sqrt(2.0 / n), seed);
-    }));
-  }
-  return printConditions(settings, columns);
+  return printConditions(settings, "%g spacings apart", {0.5, 1, 2, 4, 8}, [n](double spacings, std::uint64_t seed) {
+    return shapes::twoSheets(n, spacings * std::sqrt(2.0 / n), seed);
+  });
 }
 
 }  // namespace tufted::bench
