@@ -83,7 +83,7 @@ def source_fault(room, name, quoted):
 def tool_fault(path, name, quoted):
     if not quoted or name.startswith("tufted/") or name.split("/")[0] in FIXTURES or (path.parent / name).is_file():
         return None
-    if path.parent.name == "bench" and name.split("/")[0] in ["bench", *ROOMS]:
+    if "bench" in path.parent.parts[-2:] and name.split("/")[0] in ["bench", *ROOMS]:
         return None
     return f"tools may include public headers only, not {name}"
 

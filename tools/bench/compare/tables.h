@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/compare/rivals.h"
+#include "bench/compare/table.h"
+#include "bench/real_shapes.h"
+
+namespace tufted::bench {
+
+struct Settings {
+  std::filesystem::path real = std::filesystem::path(TUFTED_DATA_DIR).parent_path() / "real";
+  std::filesystem::path meshes = std::filesystem::path(TUFTED_CGAL_DATA_DIR) / "meshes";
+  Half half = Half::held_out;
+  int points = 0;  ///< 0: the default of each table
+  double noise = 0;
+  std::uint64_t first_seed = 101;
+  int seeds = 1;
+  int shapes = 6;                   ///< at most this many real shapes
+  std::vector<std::string> rivals;  ///< empty: all
+  int k = 0;                        ///< instead of the one of each rival, if not 0
+
+  int pointsOr(int otherwise) const { return points > 0 ? points : otherwise; }
+};
+
+/// The rivals of clouds that are asked for.
+std::vector<CloudRival> rivalsOf(const Settings& settings);
+/// The real shapes that are asked for.
+std::vector<RealShape> shapesOf(const Settings& settings, int eigenvalues);
+/// The median of some numbers that are not empty; the upper one of two.
+inline double medianOfAll(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+using Json = nlohmann::ordered_json;
+// Each prints a table and returns its rows.
+Json printSpectrum(const Settings& settings);  ///< errors of eigenvalues on real shapes, a sphere and a torus
+Json printNoise(const Settings& settings);     ///< the same against noise
+Json printDensity(const Settings& settings);   ///< against a step of density
+Json printLines(const Settings& settings);     ///< against the spacing of scan lines
+Json printSheets(const Settings& settings);    ///< against the distance of two sheets
+Json printBoundary(const Settings& settings);  ///< how far harmonic functions leave the range of their pins
+Json printGreen(const Settings& settings);     ///< sizes, times and signs of Green's functions for several k
+Json printOrders(const Settings& settings);    ///< eigenvalues with other orders of faces around edges
+Json printDistance(const Settings& settings);  ///< errors of distances on the vertices of real shapes
+Json printDataset(const Settings& settings);   ///< whether all guarantees hold on the meshes of a folder
+
+}  // namespace tufted::bench
