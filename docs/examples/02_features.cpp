@@ -49,6 +49,9 @@ int main(int argc, char** argv) {
   pcl::PointCloud<pcl::Histogram<16>> signatures;
   signature_estimation.compute(signatures);
 
+  // After a mistake, which PCL's console shows, an output is empty.
+  if (normals.size() != cloud->size() || curvatures.size() != cloud->size() || boundary.size() != cloud->size())
+    return 1;
   int found = 0, convex = 0, rims = 0, jumps = 0;
   for (std::size_t i = 0; i < cloud->size(); ++i) {
     found += std::isfinite(normals[i].normal_x) ? 1 : 0;

@@ -30,7 +30,8 @@ double milliseconds(const Call& call) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Every stride-th row and column. A pinhole camera of fewer pixels is still one.
+/// Every stride-th row and column: what a pinhole camera with fewer pixels would see, so it is still recognised as a
+/// depth image.
 Cloud::Ptr thinned(const Cloud& cloud, std::uint32_t stride) {
   if (cloud.height == 1) return cloud.makeShared();
   Cloud::Ptr thin(new Cloud(cloud.width / stride, cloud.height / stride));
@@ -77,6 +78,7 @@ class Node {
       segmentation_.segment(segments_);
     });
     const double near = milliseconds([&] {
+      near_.clear();
       if (segments_.empty()) return;
       const pcl::Indices& largest = segments_[0].indices;
       distance_.setInputCloud(cloud);

@@ -2,8 +2,8 @@
 
 namespace tufted {
 
-/// A sparse matrix that is moved by exchanging its memory. Eigen 3.4 copies one instead, and keeps the memory of one
-/// that an empty one is assigned to.
+/// A sparse matrix that is moved by swapping memory. In Eigen 3.4 a move copies, and assigning an empty matrix does not
+/// free the old memory. The source of a move keeps what the target held.
 template <class Matrix>
 class Movable : public Matrix {
  public:

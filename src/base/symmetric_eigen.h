@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-// Eigenvalues, ascending, and orthonormal eigenvectors of a real symmetric matrix, of which the lower half is read.
+// Each returns eigenvalues in ascending order and orthonormal eigenvectors. Only the lower half of the matrix is read.
 // Eigen's solver takes up to ten seconds to compile for each size, so it is compiled in one file alone.
 namespace tufted {
 

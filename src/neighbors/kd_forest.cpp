@@ -4,7 +4,8 @@
 #include <cstdlib>
 #include <new>
 
-// FLANN writes its nodes to whatever malloc() returns, null as well, so its allocator gets one that throws.
+// FLANN writes its nodes to whatever malloc() returns, null as well, so its allocator gets one that throws. It also
+// gets another name, because the linker keeps one copy of an inline function, and other files include FLANN as it is.
 namespace {
 void* mallocOrThrow(std::size_t bytes) {
   void* const memory = std::malloc(bytes);
@@ -13,6 +14,7 @@ void* mallocOrThrow(std::size_t bytes) {
 }
 }  // namespace
 #define malloc mallocOrThrow
+#define PooledAllocator TuftedPooledAllocator
 #include <flann/util/allocator.h>
 #undef malloc
 

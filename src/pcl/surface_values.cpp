@@ -54,8 +54,10 @@ PointValues signatures(const Laplacian& laplacian, const SignatureSettings& sett
     samples.assign(at.begin(), at.end());
   }
   if (is_heat) return heatKernelSignature(laplacian, pairs, at).cast<float>();
+  if (!settings.samples.empty() && (count < 2 || !(at[0] < at[count - 1])))
+    throw InvalidInput("setSamples: energies of a wave signature must be at least 2 and ascend");
   // Seven steps wide as by default, and not zero if all eigenvalues are equal.
-  const double width = std::max(7 * (at[count - 1] - at[0]) / (count - 1), 1e-8);
+  const double width = std::max(7 * (at[count - 1] - at[0]) / std::max(1, count - 1), 1e-8);
   return waveKernelSignature(pairs, at, width).cast<float>();
 }
 

@@ -174,6 +174,7 @@ void compare(const Laplacian& l, const DenseResult& dense, const Buffer<int>& in
     for (int j = 0; j < full.cols(); ++j) full(i, j) = given(input_index[i], input_index[j]);
   }
   ASSERT_EQ((full.array() != 0).count(), (given.array() != 0).count()) << "entries of points that take no part";
+  ASSERT_TRUE(full.allFinite());
   double worst = 0;
   for (int i = 0; i < full.rows(); ++i) {
     for (int j = 0; j < full.cols(); ++j) {

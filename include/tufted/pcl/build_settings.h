@@ -18,7 +18,7 @@ namespace tufted {
 enum class OrganizedSearch {
   automatic,  ///< if isDepthImage() recognises what a pinhole camera at sensor_origin_ saw, as the command `tufted`
               ///< does
-  on,         ///< always: the cloud is declared a depth image seen from its sensor_origin_
+  on,         ///< the cloud is declared a depth image seen from its sensor_origin_; a search method replaces pixels
   off,        ///< never: neighbours are found in space
 };
 
@@ -73,8 +73,9 @@ class BuildSettings : public OrganizedSettings {
  public:
   /// Sets the options of the core. What they borrow (normals, neighborhoods, structure, viewpoint) is copied and may be
   /// discarded after the call. Whatever the order of calls, `neighbors` and `threads` have no effect once setKSearch()
-  /// and setNumberOfThreads() have been called. A search method, or pixels that setOrganizedSearch() declares, replace
-  /// neighborhoods and structure; automatic recognition does not.
+  /// and setNumberOfThreads() have been called. Options without a viewpoint discard that of setViewPoint(). A search
+  /// method, or pixels that setOrganizedSearch() declares, replace neighborhoods and structure; automatic recognition
+  /// does not.
   void setOptions(const CloudOptions& options);
   /// The options in effect, which borrow what this object owns.
   CloudOptions getOptions() const;
@@ -115,9 +116,10 @@ class BuildSettings : public OrganizedSettings {
 /// Settings of classes that use a Laplacian: one that was built before, or their own.
 class SurfaceSettings : public BuildSettings {
  public:
-  /// Uses a Laplacian of all points of the input, as from LaplacianEstimation::compute(). The settings of the build
-  /// have no effect then. Null (default): every computation builds its own, from all points of the input, whatever
-  /// setIndices says.
+  /// Uses a Laplacian that was built before, row i for point i of the input: that of LaplacianEstimation::compute()
+  /// without setIndices(). Of the settings only the threads and, for normals and curvatures, the viewpoint have an
+  /// effect then. Null (default): every computation builds its own, from all points of the input, whatever setIndices()
+  /// says.
   void setSurface(std::shared_ptr<const Laplacian> surface) { given_ = std::move(surface); }
   /// The Laplacian of the last computation, whose status says why a point takes no part; null before the first.
   const std::shared_ptr<const Laplacian>& getSurface() const { return used_; }

@@ -34,7 +34,7 @@ class GeodesicDistance : public pcl::PCLBase<PointT>, public LaplacianSettings<P
   /// Computes distances: the field `intensity`, in the unit of the points, infinite where no path leads and NaN at a
   /// point that takes no part.
   /// @param[out] output one point per index or, without indices, an organized cloud as the input; NaN positions are
-  /// kept
+  /// kept, and is_dense is false if any distance is NaN or infinite
   void compute(pcl::PointCloud<pcl::PointXYZI>& output);
 
   /// Finds the points within a radius of the sources along the surface, visiting these alone.
@@ -60,6 +60,7 @@ class GeodesicDistance : public pcl::PCLBase<PointT>, public LaplacianSettings<P
   std::vector<int> sources_;
   std::shared_ptr<const Laplacian> prepared_;
   std::shared_ptr<const DistanceSolver> solver_;  // for prepared_
+  int prepared_threads_ = 0;
 };
 
 }  // namespace tufted

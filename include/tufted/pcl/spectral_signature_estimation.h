@@ -39,9 +39,9 @@ class SpectralSignatureEstimation : public SurfaceFeature<PointInT, PointOutT> {
   /// See setEigenpairs().
   int getEigenpairs() const { return settings_.eigenpairs; }
 
-  /// Times in length^2 (heat), or ascending natural logarithms of eigenvalues in equal steps (wave), one per entry of
-  /// the output. Signatures of two clouds are comparable if they have the same. Empty (default): those of heatTimes()
-  /// or waveEnergies() for each cloud.
+  /// Times in length^2 (heat), or natural logarithms of eigenvalues (wave), at least two, ascending in equal steps; one
+  /// per entry of the output. Signatures of two clouds are comparable if they have the same. Empty (default): those of
+  /// heatTimes() or waveEnergies() for each cloud.
   void setSamples(std::vector<double> values) { settings_.samples = std::move(values); }
   /// The times or energies of the last computation.
   const std::vector<double>& getSamples() const { return used_; }

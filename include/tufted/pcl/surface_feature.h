@@ -44,7 +44,7 @@ class FeatureRows : public SurfaceSettings {
 /// and then is_dense is false; SurfaceSettings::getSurface() has its status. Coincident points have the values of their
 /// representative.
 ///
-/// Neither k nor a radius must be set: setKSearch(0), PCL's default, stands for the options' 30 neighbours. Without
+/// Neither k nor a radius must be set: setKSearch(0), PCL's default, stands for CloudOptions::neighbors. Without
 /// setSearchMethod() the library searches by itself. A radius and a search surface are refused. A caller's mistake is
 /// reported on PCL's console and leaves an empty output.
 template <typename PointInT, typename PointOutT>

@@ -49,8 +49,8 @@ class SurfaceSegmentation : public pcl::PCLBase<PointT>, public LaplacianSetting
   int getMaxClusterSize() const { return most_; }
 
   /// Finds the segments.
-  /// @param[out] clusters components with more points first, parts of larger area first; indices ascend if those of
-  /// setIndices do
+  /// @param[out] clusters in descending order of their size on the whole surface: components by number of points, parts
+  /// by area; indices ascend if those of setIndices do
   void segment(std::vector<pcl::PointIndices>& clusters);
 
   /// The name of the class, "SurfaceSegmentation".

@@ -11,7 +11,8 @@
 namespace tufted {
 
 /// Selects triangles of the surface that form a mesh in which every edge has one or two triangles, see
-/// surfaceTriangles(). They face the viewpoint if it is known, see setViewPoint().
+/// surfaceTriangles(). They face the viewpoint with which the surface was built, if it is known; on a surface that was
+/// given, setViewPoint() has no effect.
 ///
 /// The surface is that of all finite points of the input, or the one of setSurface(). The cloud of the mesh is the
 /// input with all its fields, NaN points too, so that corners are indices of the input; a point that takes no part is

@@ -152,6 +152,7 @@ Json printGreen(const Settings& settings) {
         for (int i = 0; i < 2; ++i) solve[i] += share * seconds[i];
         failed = failed || !green;
         for (int s = 0; green && s < sources; ++s) {
+          failed = failed || !std::isfinite((*green)(drawn[s + 1], s));  // the sink or the source has no row
           const VectorXd g = green->col(s).array().isFinite().select(green->col(s), 0);
           if (g.maxCoeff() > 0) least = std::min(least, g.minCoeff() / g.maxCoeff());
         }

@@ -1,9 +1,11 @@
 // tufted_compare: other Laplacians and ours on the same data, one table per question. See --help.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -12,11 +14,15 @@
 namespace tufted::bench {
 
 std::vector<CloudRival> rivalsOf(const Settings& settings) {
-  std::vector<CloudRival> rivals = cloudRivals();
-  std::erase_if(rivals, [&](const CloudRival& rival) {
-    return !settings.rivals.empty() &&
-           std::find(settings.rivals.begin(), settings.rivals.end(), rival.name) == settings.rivals.end();
-  });
+  const std::vector<CloudRival> all = cloudRivals();
+  if (settings.rivals.empty()) return all;
+  std::vector<CloudRival> rivals;
+  for (const std::string& name : settings.rivals) {
+    const auto named =
+        std::find_if(all.begin(), all.end(), [&](const CloudRival& rival) { return rival.name == name; });
+    if (named == all.end()) throw std::runtime_error("--rivals: no Laplacian is called " + name);
+    rivals.push_back(*named);
+  }
   return rivals;
 }
 
@@ -60,12 +66,13 @@ int main(int argc, char** argv) {
   app.add_option("--meshes", settings.meshes, "Folder of meshes");
   app.add_option("--half", settings.half, "Which half of the shapes")->transform(CLI::CheckedTransformer(halves));
   app.add_option("--points", settings.points, "Points of each cloud");
-  app.add_option("--noise", settings.noise, "spectrum: standard deviation in spacings");
+  app.add_option("--noise", settings.noise, "spectrum, green, orders: standard deviation in spacings");
   app.add_option("--seed", settings.first_seed, "The first seed; constants are chosen on 1 to 9");
-  app.add_option("--seeds", settings.seeds, "How many seeds")->check(CLI::Range(1, 100));
+  app.add_option("--seeds", settings.seeds, "spectrum, noise, density, lines, sheets: how many seeds")
+      ->check(CLI::Range(1, 100));
   app.add_option("--shapes", settings.shapes, "At most this many real shapes");
   app.add_option("--rivals", settings.rivals, "Only these")->delimiter(';');
-  app.add_option("-k", settings.k, "Neighbours, instead of the number of each rival");
+  app.add_option("-k", settings.k, "The same tables: neighbours, instead of the number of each rival");
   app.add_option("--json", json, "Write the rows to this file as well");
   for (const Command& command : commands) {
     CLI::App* added = app.add_subcommand(command.name, command.purpose);

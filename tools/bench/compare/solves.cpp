@@ -93,6 +93,7 @@ std::pair<std::vector<int>, int> componentsOf(const SparseMatrix& L) {
 }
 
 Eigenvalues generalEigenvalues(const SparseMatrix& L, const VectorXd& M, int count) {
+  if (M.size() == 0) throw std::runtime_error("no point has a row");
   const double shift = -1 / M.sum();  // below 0 by less than the first positive eigenvalue, and L - shift M is regular
   const auto [label, components] = componentsOf(L);
   std::vector<std::complex<double>> found;
@@ -180,9 +181,11 @@ std::optional<Eigen::MatrixXd> solvePinned(const SparseMatrix& L, bool symmetric
     const Stopwatch solving;
     solved = factor.solve(right);
     if (seconds != nullptr) (*seconds)[1] = solving.seconds();
-    return solved.allFinite();
+    constexpr double most_residual = 1e-8;
+    return (A * solved - right).norm() <= most_residual * right.norm();
   };
-  const bool done = symmetric ? solveWith(Eigen::SimplicialLDLT<SparseMatrix>()) : solveWith(LU());
+  // LDL^T does not pivot, so an indefinite matrix may need LU.
+  const bool done = (symmetric && solveWith(Eigen::SimplicialLDLT<SparseMatrix>())) || solveWith(LU());
   if (!done) return std::nullopt;
   u(free, Eigen::all) = solved;
   return u;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -23,14 +24,20 @@ template <typename PointT>
 void tufted::GeodesicDistance<PointT>::compute(pcl::PointCloud<pcl::PointXYZI>& output) {
   pcl::PointCloud<pcl::PointXYZI> result;
   run("compute", [&](const Laplacian& laplacian) {
-    if (prepared_ != this->getSurface()) {
-      solver_ = std::make_shared<const DistanceSolver>(
-          laplacian, DistanceOptions{.solver = {.threads = this->getOptions().threads}});
+    const int threads = this->getOptions().threads;
+    if (!solver_ || prepared_ != this->getSurface() || prepared_threads_ != threads) {
+      solver_.reset();
+      solver_ = std::make_shared<const DistanceSolver>(laplacian, DistanceOptions{.solver = {.threads = threads}});
+      prepared_ = this->getSurface();
+      prepared_threads_ = threads;
     }
-    const VectorXd distance = solver_->query(sources_);
+    const std::shared_ptr<const DistanceSolver> solver = solver_;
     // A Laplacian of our own is never the same again, and its memory is for the next one.
-    prepared_ = this->hasGivenSurface() ? this->getSurface() : nullptr;
-    if (!prepared_) solver_.reset();
+    if (!this->hasGivenSurface()) {
+      prepared_.reset();
+      solver_.reset();
+    }
+    const VectorXd distance = solver->query(sources_);
 
     result.header = input_->header;
     result.sensor_origin_ = input_->sensor_origin_;
@@ -46,7 +53,7 @@ void tufted::GeodesicDistance<PointT>::compute(pcl::PointCloud<pcl::PointXYZI>& 
       result[r].y = (*input_)[i].y;
       result[r].z = (*input_)[i].z;
       result[r].intensity = has_value ? static_cast<float>(distance[i]) : std::numeric_limits<float>::quiet_NaN();
-      result.is_dense = result.is_dense && has_value;
+      result.is_dense = result.is_dense && std::isfinite(result[r].intensity);
     }
   });
   output = std::move(result);
