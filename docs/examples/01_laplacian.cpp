@@ -6,8 +6,12 @@
 #include <iostream>
 
 int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: 01_laplacian FILE\n";
+    return 2;
+  }
   const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
-  if (argc != 2 || pcl::io::loadPCDFile(argv[1], *cloud) != 0) return 1;
+  if (pcl::io::loadPCDFile(argv[1], *cloud) != 0) return 1;
 
   // An organized cloud that a pinhole camera saw is recognised, and its pixels are used instead of a search tree.
   tufted::LaplacianEstimation<pcl::PointXYZ> estimation;

@@ -12,8 +12,12 @@
 using Point = pcl::PointXYZ;
 
 int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: 02_features FILE\n";
+    return 2;
+  }
   const pcl::PointCloud<Point>::Ptr cloud(new pcl::PointCloud<Point>);
-  if (argc != 2 || pcl::io::loadPCDFile(argv[1], *cloud) != 0) return 1;
+  if (pcl::io::loadPCDFile(argv[1], *cloud) != 0) return 1;
 
   // The surface is built once. A feature without setSurface() would build its own.
   tufted::LaplacianEstimation<Point> estimation;

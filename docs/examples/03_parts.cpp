@@ -14,8 +14,12 @@
 using Point = pcl::PointXYZ;
 
 int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: 03_parts FILE MESH\n";
+    return 2;
+  }
   const pcl::PointCloud<Point>::Ptr cloud(new pcl::PointCloud<Point>);
-  if (argc != 3 || pcl::io::loadPCDFile(argv[1], *cloud) != 0) return 1;
+  if (pcl::io::loadPCDFile(argv[1], *cloud) != 0) return 1;
 
   // The triangles have the points of the cloud as corners, so the noise is removed first.
   tufted::SurfaceDenoising<Point> denoising;

@@ -294,7 +294,15 @@ void compareErrors(const Shape& shape, double noise) {
 
 int main(int argc, char** argv) {
   Cloud cloud;
-  if (argc < 2 || pcl::io::loadPCDFile(argv[1], cloud) != 0 || cloud.height < 2) return 1;
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: 04_beside_pcl FILE [STRIDE] [EIGENPAIRS]\n");
+    return 2;
+  }
+  if (pcl::io::loadPCDFile(argv[1], cloud) != 0) return 1;
+  if (cloud.height < 2) {
+    std::fprintf(stderr, "%s is not organized, must be\n", argv[1]);
+    return 1;
+  }
   pcl::console::setVerbosityLevel(pcl::console::L_ERROR);
   times(thinned(cloud, argc > 2 ? static_cast<std::uint32_t>(std::max(1, std::atoi(argv[2]))) : 1),
         argc > 3 ? std::atoi(argv[3]) : 100);

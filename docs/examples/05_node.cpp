@@ -108,7 +108,10 @@ class Node {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) return 2;
+  if (argc < 2 || !std::filesystem::is_directory(argv[1])) {
+    std::fprintf(stderr, "usage: 05_node FOLDER [STRIDE] [THREADS]\n");
+    return 2;
+  }
   const int stride = argc > 2 ? std::max(1, std::atoi(argv[2])) : 3;
   const int threads = argc > 3 ? std::max(0, std::atoi(argv[3])) : 0;
   std::vector<std::filesystem::path> files;
@@ -127,6 +130,9 @@ int main(int argc, char** argv) {
     total += node.frame(thinned(cloud, static_cast<std::uint32_t>(stride)));
     ++frames;
   }
-  if (frames == 0) return 1;
+  if (frames == 0) {
+    std::fprintf(stderr, "%s has no PCD file that can be read\n", argv[1]);
+    return 1;
+  }
   std::printf("%d frames, %.1f frames a second, without reading the files\n", frames, 1000 * frames / total);
 }
