@@ -161,7 +161,7 @@ LinearSystem LinearSystem::laplacian(const SystemNames& names, const Laplacian& 
   system.L_.prune([&](Eigen::Index i, Eigen::Index j, double) { return components.of[i] == components.of[j]; });
   system.lower_ = lowerTriangle(system.L_, system.unknowns_, [](int, int, double value) { return value; });
   system.prepare(options, workers);
-  system.lower_ = LongMatrix();
+  system.lower_ = {};
   if (parts.count > components.count) system.separate(parts, floating);
   if (system.backend_ && !system.report_.iterative && !system.joints_) {
     // L z = (1 at the pinned points) - weights.

@@ -8,7 +8,6 @@
 #include "algorithms/linear_backend.h"
 #include "algorithms/nearly_disconnected.h"
 #include "algorithms/remainder.h"
-#include "base/movable.h"
 #include "operators/lower_triangle.h"
 #include "tufted/solver.h"
 
@@ -101,14 +100,14 @@ class LinearSystem {
   [[noreturn]] void fail(const std::string& function, const NotConverged& failure) const;
 
   SystemNames names_;
-  Movable<LongMatrix> lower_;  ///< lower triangle over the unknowns; for a Laplacian only while it is factorised
-  Selection unknowns_;         ///< the points that are solved for
+  LongMatrix lower_;    ///< lower triangle over the unknowns; for a Laplacian only while it is factorised
+  Selection unknowns_;  ///< the points that are solved for
   std::optional<Components> components_;    ///< for a Laplacian
   std::unique_ptr<PartConstants> joints_;   ///< for a Laplacian with parts joined by tiny weights
   std::vector<int> pinned_;                 ///< for a Laplacian: the first point of each component
   VectorXd spread_;                         ///< N; for a Laplacian with a factor: see spreadPinned()
   VectorXd weights_;                        ///< N; for a Laplacian: see Components::weights()
-  Movable<SparseMatrix> L_;                 ///< for a Laplacian: L without weights between components
+  SparseMatrix L_;                          ///< for a Laplacian: L without weights between components
   std::unique_ptr<LinearBackend> backend_;  ///< null if there are no unknowns
   SolverReport report_;
   double tolerance_;
