@@ -42,7 +42,8 @@ namespace detail {
 /// A cloud of PCL as the core takes it.
 struct CloudInput {
   Points points;                                     ///< all points of the cloud, in double
-  int width = 0, height = 0;                         ///< as those of the cloud; a height above 1: organized
+  int width = 0;                                     ///< that of the cloud
+  int height = 0;                                    ///< that of the cloud; above 1 it is organized
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< the cloud's sensor_origin_
   const pcl::Indices* indices = nullptr;             ///< points to build from, one row each; null: all, in their order
   std::optional<Neighborhoods> neighborhoods = {};   ///< found by a search method, one row per row of the Laplacian

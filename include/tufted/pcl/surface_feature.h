@@ -15,12 +15,12 @@ class FeatureRows : public SurfaceSettings {
  protected:
   /// What a pcl::Feature was given.
   struct Given {
-    typename pcl::PointCloud<PointInT>::ConstPtr input;
-    typename pcl::PointCloud<PointInT>::ConstPtr search_surface;
-    typename pcl::search::Search<PointInT>::Ptr search;
-    const pcl::Indices& indices;
-    int k;
-    double radius;
+    typename pcl::PointCloud<PointInT>::ConstPtr input;           ///< see setInputCloud()
+    typename pcl::PointCloud<PointInT>::ConstPtr search_surface;  ///< see setSearchSurface()
+    typename pcl::search::Search<PointInT>::Ptr search;           ///< see setSearchMethod()
+    const pcl::Indices& indices;                                  ///< see setIndices()
+    int k;                                                        ///< see setKSearch()
+    double radius;                                                ///< see setRadiusSearch()
   };
 
   FeatureRows() = default;
