@@ -292,6 +292,7 @@ TEST(Names, MayHoldAnyByte) {
   }
 }
 
+#ifndef TUFTED_SANITIZED  // sanitizers keep freed memory
 /// The files that this process has open.
 int openFiles() {
   int count = 0;
@@ -301,7 +302,6 @@ int openFiles() {
   return count;
 }
 
-#ifndef TUFTED_SANITIZED  // sanitizers keep freed memory
 double residentMegabytes() {
   std::ifstream file("/proc/self/statm");
   double all = 0, resident = 0;
