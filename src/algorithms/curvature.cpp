@@ -138,10 +138,8 @@ class Fitter {
     const double radius = wider * std::sqrt(farthest);
     HeightFit fit = fitHeights(weightedMoments(offsets_.view(), normal_, radius));
     for (int turn = 0; turn < most_turns && fit.is_valid; ++turn) {
-      const double along_x = fit.coefficient[1], along_y = fit.coefficient[2];
-      if (!(std::hypot(along_x, along_y) > most_slope)) break;
-      const Eigen::Vector3d x = tangentOf(normal_), y = normal_.cross(x);
-      normal_ = (normal_ - along_x * x - along_y * y).normalized();
+      if (!(std::hypot(fit.coefficient[1], fit.coefficient[2]) > most_slope)) break;
+      normal_ = normalOf(fit, normal_);
       fit = fitHeights(weightedMoments(offsets_.view(), normal_, radius));
     }
     return fit.is_valid ? std::optional(Window{fit, normal_, radius * unit, rings_.count()}) : std::nullopt;

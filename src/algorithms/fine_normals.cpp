@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/parallel.h"
 #include "operators/rings.h"
 #include "stars/offsets.h"
 #include "stars/quadratic_fit.h"
@@ -46,8 +47,7 @@ std::optional<Fit> quadraticThrough(const Offsets& offsets, Eigen::Vector3d norm
   for (int round = 0; round < 2; ++round) {
     const HeightFit fit = fitHeights(heightMoments(offsets, normal, 1));
     if (!fit.is_valid) return std::nullopt;
-    const Eigen::Vector3d u = tangentOf(normal), v = normal.cross(u);
-    normal = (normal - fit.coefficient[1] * u - fit.coefficient[2] * v).normalized();
+    normal = normalOf(fit, normal);
     variance = fit.variance;
   }
   return Fit{normal, variance};
@@ -86,7 +86,8 @@ Eigen::Vector3d upright(const Eigen::Vector3d& normal) {
 
 }  // namespace
 
-void takeFineNormals(const Laplacian& laplacian, const Workers& workers, Frames& frames) {
+void takeFineNormals(const Laplacian& laplacian, int threads, const Progress& progress, Frames& frames) {
+  const Workers workers(threads, progress);
   struct Scratch {
     Rings rings;
     std::vector<Eigen::RowVector3d> offsets;

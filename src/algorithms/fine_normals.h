@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/parallel.h"
 #include "tufted/laplacian.h"
+#include "tufted/options.h"
 
 namespace tufted {
 
@@ -9,6 +9,6 @@ namespace tufted {
 /// a smooth surface, a plane through the ten nearest points is better next to creases and in thin parts. The one with
 /// less variance is used. Signs are kept, and tangents are rotated with the normals.
 /// @param laplacian of a cloud; its neighbours in L are not on another sheet
-void takeFineNormals(const Laplacian& laplacian, const Workers& workers, Frames& frames);
+void takeFineNormals(const Laplacian& laplacian, int threads, const Progress& progress, Frames& frames);
 
 }  // namespace tufted

@@ -305,9 +305,8 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
   OrientationReport made;
   Frames result = frames;
   const bool is_fine = laplacian.kind == Kind::cloud && frames.orientation != Orientation::given;
-  const Workers workers(options.threads, options.progress);
   if (options.viewpoint != nullptr) {
-    if (is_fine) takeFineNormals(laplacian, workers, result);
+    if (is_fine) takeFineNormals(laplacian, options.threads, options.progress, result);
     const Eigen::RowVector3d viewpoint = options.viewpoint->transpose() / 2;
     for (Eigen::Index i = 0; i < result.normals.rows(); ++i) {
       if (laplacian.status[i] != PointStatus::active) continue;
@@ -317,7 +316,7 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
     turnOutwards(laplacian, options.up, result.normals, made);  // triangles already give consistent signs
   } else {
     orientAlike(laplacian, options, result.normals, made);
-    if (is_fine) takeFineNormals(laplacian, workers, result);
+    if (is_fine) takeFineNormals(laplacian, options.threads, options.progress, result);
   }
   for (Eigen::Index i = 0; i < result.normals.rows(); ++i) {
     const int source = laplacian.representative[i];

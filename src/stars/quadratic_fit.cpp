@@ -78,4 +78,9 @@ HeightFit fitHeights(const HeightMoments& moments) {
   return fit;
 }
 
+Eigen::Vector3d normalOf(const HeightFit& fit, const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d u = tangentOf(normal), v = normal.cross(u);
+  return (normal - fit.coefficient[1] * u - fit.coefficient[2] * v).normalized();
+}
+
 }  // namespace tufted

@@ -41,4 +41,8 @@ HeightMoments weightedMoments(const Offsets& neighbors, const Eigen::Vector3d& n
 void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fits);
 HeightFit fitHeights(const HeightMoments& moments);
 
+/// The normal of the fitted surface over p.
+/// @param normal of the plane over which the heights were measured
+Eigen::Vector3d normalOf(const HeightFit& fit, const Eigen::Vector3d& normal);
+
 }  // namespace tufted
