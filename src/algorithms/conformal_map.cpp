@@ -216,17 +216,11 @@ Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, con
       for (int c = 0; c < columns; ++c)
         image(k, c) = root[k] * Complex(y(2 * rim.points[k], c), y(2 * rim.points[k] + 1, c));
     deflate(image);
-    MatrixXcd small(columns, columns);
-    for (int i = 0; i < columns; ++i)
-      for (int j = 0; j < columns; ++j) small(i, j) = x.col(i).dot(image.col(j));
+    const MatrixXcd small = x.adjoint().lazyProduct(image);  // a product by blocks takes seconds to compile
     const auto [theta, weights] = largestPair((small + small.adjoint()) / 2);
     // A complex factor only scales and rotates the map; if the eigenvalue is near 0, rounding rotates it from step to
     // step.
-    VectorXcd vector = VectorXcd::Zero(x.rows()), turned = vector;
-    for (int c = 0; c < columns; ++c) {
-      vector += weights[c] * x.col(c);
-      turned += weights[c] * image.col(c);
-    }
+    const VectorXcd vector = x.lazyProduct(weights), turned = image.lazyProduct(weights);
     const Complex factor = vector.dot(turned);
     const double residual = (turned - factor * vector).norm() / std::abs(factor);
     idle = residual <= least / 2 ? 0 : idle + 1;
