@@ -4,8 +4,9 @@
 #include <cstdlib>
 #include <new>
 
-// FLANN writes its nodes to whatever malloc() returns, null as well, so its allocator gets one that throws. It also
-// gets another name, because the linker keeps one copy of an inline function, and other files include FLANN as it is.
+// FLANN writes its nodes to whatever malloc() returns, null as well, so its allocator gets one that throws. It and the
+// tree that holds it also get other names, because the linker keeps one copy of an inline function, and other files
+// include FLANN as it is.
 namespace {
 void* mallocOrThrow(std::size_t bytes) {
   void* const memory = std::malloc(bytes);
@@ -15,6 +16,7 @@ void* mallocOrThrow(std::size_t bytes) {
 }  // namespace
 #define malloc mallocOrThrow
 #define PooledAllocator TuftedPooledAllocator
+#define KDTreeSingleIndex TuftedKDTreeSingleIndex
 #include <flann/util/allocator.h>
 #undef malloc
 
