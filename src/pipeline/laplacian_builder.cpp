@@ -33,15 +33,19 @@ struct LaplacianBuilder::State {
   /// Empties the result and frees its memory. Takes none, because it is called when there is none left.
   void forget() noexcept {
     if (!no_entries) return;  // nothing was built since the last call
-    result.L.swap(*no_entries);
+    // Names all members, so that a new one is not forgotten here.
+    auto& [kind, L, M, cover_areas, status, representative, boundary, component, frames, positions, noise,
+           component_edges, report, cover_source] = result;
+    kind = Kind::mesh;
+    L.swap(*no_entries);
     no_entries.reset();
+    auto& [normals, tangents, orientation] = frames;
+    orientation = Orientation::arbitrary;
     const auto freeAll = [](auto&... arrays) { (tufted::release(arrays), ...); };
-    freeAll(result.M, result.cover_areas, result.status, result.representative, result.boundary, result.component,
-            result.frames.normals, result.frames.tangents, result.positions, result.noise, result.component_edges);
-    result.kind = Kind::mesh;
-    result.frames.orientation = Orientation::arbitrary;
-    result.report = {};
-    result.cover_source.reset();
+    freeAll(M, cover_areas, status, representative, boundary, component, normals, tangents, positions, noise,
+            component_edges);
+    report = {};
+    cover_source.reset();
   }
 };
 
