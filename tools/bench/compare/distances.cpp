@@ -5,6 +5,7 @@
 #include <queue>
 #include <utility>
 
+#include "base/median.h"
 #include "bench/compare/patches.h"
 #include "bench/compare/solves.h"
 #include "bench/compare/tables.h"
@@ -74,7 +75,7 @@ VectorXd heatDistances(const Points& points, const Operators& operators, int sou
 /// Mean |d - exact| over mean exact at the points that have a distance, one per shape, and the share of those without.
 struct Errors {
   std::string method;
-  std::vector<double> all{}, lost{};
+  Buffer<double> all{}, lost{};
 
   void add(const VectorXd& distance, const VectorXd& exact) {
     double sum = 0, exact_sum = 0, missing = 0;
@@ -114,7 +115,7 @@ Json printDistance(const Settings& settings) {
   }
   Table table({"method", "shapes", "mean error: median", "worst", "points without distance: worst"});
   for (const auto& [name, all, lost] : methods) {
-    table.row({name, static_cast<int>(all.size()), all.empty() ? Cell("") : percent(medianOfAll(all)),
+    table.row({name, static_cast<int>(all.size()), all.empty() ? Cell("") : percent(medianOf(all)),
                all.empty() ? Cell("") : percent(*std::max_element(all.begin(), all.end())),
                lost.empty() ? Cell("") : percent(*std::max_element(lost.begin(), lost.end()), "%.2f %%")});
   }

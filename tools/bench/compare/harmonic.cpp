@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/median.h"
 #include "base/stage_clock.h"
 #include "bench/compare/solves.h"
 #include "bench/compare/tables.h"
@@ -64,7 +65,7 @@ std::vector<shapes::Mesh> meshesOf(const Settings& settings) {
 struct Overshoots {
   int broken = 0, failed = 0, tried = 0;
   double worst = 0, positive = 0, empty = 0;
-  std::vector<double> all;
+  Buffer<double> all;
 
   /// @param build returns the operators of one mesh or cloud, or throws std::runtime_error
   template <class Build>
@@ -90,7 +91,7 @@ struct Overshoots {
   }
   std::vector<Cell> row(const char* kind, const std::string& name) const {
     const double share = 1.0 / std::max(tried, 1);
-    const Cell median = all.empty() ? Cell("") : percent(medianOfAll(all), "%.2g %%");
+    const Cell median = all.empty() ? Cell("") : percent(medianOf(all), "%.2g %%");
     const Cell greatest = percent(worst, "%.3g %%");
     return {kind, name, tried, broken, median, greatest, percent(positive * share), percent(empty * share), failed};
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "base/median.h"
 #include "base/stage_clock.h"
 #include "bench/compare/solves.h"
 #include "bench/compare/tables.h"
@@ -24,7 +25,7 @@ using Column = std::vector<Case>;
 
 /// What a rival does on some cases.
 struct Result {
-  std::vector<double> errors;  ///< of each case that has a spectrum
+  Buffer<double> errors;  ///< of each case that has a spectrum
   int failed = 0, complex = 0, negative = 0;
   double seconds = 0;  ///< of all builds
 
@@ -138,7 +139,7 @@ Json printSpectrum(const Settings& settings) {
     const Result result = measure(rival, k, real), on_sphere = measure(rival, k, sphere),
                  on_torus = measure(rival, k, torus);
     const auto& errors = result.errors;
-    table.row({rival.name, errors.empty() ? Cell("no spectrum") : percent(medianOfAll(errors)),
+    table.row({rival.name, errors.empty() ? Cell("no spectrum") : percent(medianOf(errors)),
                errors.empty() ? Cell("") : percent(*std::max_element(errors.begin(), errors.end())),
                errorCell(on_sphere, on_sphere.mean()), errorCell(on_torus, on_torus.mean()), notReal(result),
                Cell("%.2f", result.seconds / static_cast<double>(std::max<std::size_t>(real.size(), 1)))});

@@ -31,12 +31,6 @@ struct Settings {
 std::vector<CloudRival> rivalsOf(const Settings& settings);
 /// The real shapes that are asked for.
 std::vector<RealShape> shapesOf(const Settings& settings, int eigenvalues);
-/// The median of some numbers that are not empty; the upper one of two.
-inline double medianOfAll(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 using Json = nlohmann::ordered_json;
 // Each prints a table and returns its rows.
