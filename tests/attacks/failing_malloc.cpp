@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <cstring>
 
+#include "support/libc_malloc.h"
+
 namespace {
 
 std::atomic<std::int64_t> live{0}, left{0};
 std::atomic<std::size_t> least_size{0};
-std::atomic<bool> goes_on{false}, failed{false};
+std::atomic<bool> goes_on{false}, failed{false};  // all fail once both are set
 
 /// Whether a library asks that ends the process if it gets none: OpenMP's, which CHOLMOD uses, by intent, and matio by
 /// using a null pointer.
@@ -23,12 +25,14 @@ bool diesWithout(const void* caller) {
 
 /// Counts a request down. False if it is to fail.
 bool mayTake(std::size_t size, const void* caller) {
-  if (left == 0 || size < least_size || diesWithout(caller)) return true;
-  if (left < 0) return false;  // all from then on
-  const std::int64_t now = left.fetch_sub(1);
+  std::int64_t now = left;
+  const bool fails_always = goes_on && failed;
+  if ((now == 0 && !fails_always) || size < least_size || diesWithout(caller)) return true;
+  if (fails_always) return false;
+  while (now > 0 && !left.compare_exchange_weak(now, now - 1)) {
+  }
   if (now != 1) return true;
   failed = true;
-  if (goes_on) left = -1;
   return false;
 }
 
@@ -44,16 +48,8 @@ void* refused() {
 
 }  // namespace
 
-// These replace the functions of the C library, which has them under the names below too.
+// These replace the functions of the C library.
 extern "C" {
-// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-void __libc_free(void* memory);
-// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
-
 void* malloc(std::size_t size) {
   return mayTake(size, __builtin_return_address(0)) ? counted(__libc_malloc(size)) : refused();
 }
@@ -89,6 +85,7 @@ void free(void* memory) {
 namespace tufted::attacks {
 
 void failRequest(std::int64_t nth, bool from_then_on, std::size_t least) {
+  left = 0;
   failed = false;
   goes_on = from_then_on;
   least_size = least;

@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "support/libc_malloc.h"
+
 namespace {
 
 std::atomic<std::int64_t> blocks{0}, foreign_blocks{0};
@@ -42,15 +44,8 @@ void count() {
 
 }  // namespace
 
-// These replace the functions of the C library, which has them under the names below too.
+// These replace the functions of the C library.
 extern "C" {
-// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
-
 void* malloc(std::size_t size) {
   count();
   return __libc_malloc(size);
