@@ -1,4 +1,4 @@
-// Geodesic Voronoi cells, and spectral clustering (Ng, Jordan, Weiss 2002).
+// Geodesic Voronoi cells, spectral clustering (Ng, Jordan, Weiss 2002), and parts between concave creases.
 #include "tufted/segments.h"
 
 #include <algorithm>
@@ -9,10 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "algorithms/check_frames.h"
 #include "algorithms/clusters.h"
 #include "algorithms/connected.h"
+#include "algorithms/crease_parts.h"
 #include "algorithms/march.h"
 #include "algorithms/march_faces.h"
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
 #include "operators/check_cover.h"
@@ -32,14 +35,21 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
   const std::string name = std::string(function_name) + ": ";
   if (components.points.empty()) throw InvalidInput(name + "no point is active, must be at least one");
-  if (options.method == SegmentMethod::spectral) {
-    if (!options.seeds.empty()) throw InvalidInput(name + "seeds are given, must be none with SegmentMethod::spectral");
+  if (options.method != SegmentMethod::voronoi) {
+    const bool is_parts = options.method == SegmentMethod::parts;
+    const std::string none = std::string(", must be none with SegmentMethod::") + (is_parts ? "parts" : "spectral");
+    if (!options.seeds.empty()) throw InvalidInput(name + "seeds are given" + none);
+    if (is_parts && options.count) throw InvalidInput(name + "count = " + std::to_string(*options.count) + none);
   } else if (laplacian.positions.rows() != std::ssize(laplacian.status)) {
     throw InvalidInput(name + "Laplacian::positions has " + std::to_string(laplacian.positions.rows()) +
                        " rows, must have " + std::to_string(laplacian.status.size()) + ", one per point");
   }
   if (options.count && *options.count < 1)
     throw InvalidInput(name + "count = " + std::to_string(*options.count) + ", must be at least 1");
+  if (!(options.crease > 0) || !std::isfinite(options.crease))
+    throw InvalidInput(name + "crease = " + numberText(options.crease) + ", must be positive and finite");
+  if (options.least_points < 1)
+    throw InvalidInput(name + "least_points = " + std::to_string(options.least_points) + ", must be at least 1");
   std::vector<int> seen;
   for (const int seed : options.seeds) {
     if (seed < 0 || seed >= std::ssize(laplacian.status))
@@ -227,20 +237,32 @@ void finish(const Laplacian& laplacian, int count, Segments& result) {
 }  // namespace
 
 Segments segments(const Laplacian& laplacian, const SegmentOptions& options) {
+  return segments(laplacian, laplacian.frames, options);
+}
+
+Segments segments(const Laplacian& laplacian, const Frames& frames, const SegmentOptions& options) {
   checkSizes(function_name, laplacian);
   const Stopwatch watch;
   const Components components = findComponents(laplacian);
   checkArguments(laplacian, options, components);
-  const bool is_spectral = options.method == SegmentMethod::spectral;
   Segments result;
-  if (is_spectral) {
-    const int count = options.count ? *options.count : std::clamp(mostEigenpairs(laplacian), 1, usual_count);
-    result = spectral(laplacian, count, options.solver, components);
-    finish(laplacian, count, result);
-  } else {
-    result = voronoi(laplacian, options, components);
-    finish(laplacian, static_cast<int>(result.seeds.size()), result);
+  int count = 0;
+  switch (options.method) {
+    case SegmentMethod::voronoi:
+      result = voronoi(laplacian, options, components);
+      count = static_cast<int>(result.seeds.size());
+      break;
+    case SegmentMethod::spectral:
+      count = options.count ? *options.count : std::clamp(mostEigenpairs(laplacian), 1, usual_count);
+      result = spectral(laplacian, count, options.solver, components);
+      break;
+    case SegmentMethod::parts:
+      checkFrames(function_name, laplacian, frames);
+      result.labels = creaseParts(laplacian, frames, options);
+      count = 1 + *std::max_element(result.labels.begin(), result.labels.end());
+      break;
   }
+  finish(laplacian, count, result);
   result.seconds = watch.seconds();
   return result;
 }

@@ -64,6 +64,7 @@ constexpr std::array words = {
     Name{"pins.points", "pins"},
     Name{"pins.values", "values"},
     Name{"SegmentMethod::spectral", "method 'spectral'"},
+    Name{"SegmentMethod::parts", "method 'parts'"},
     Name{"ParameterizationMethod::harmonic", "method 'harmonic'"},
     Name{"SolverMethod::cholesky", "'cholesky'"},
     Name{"SolverMethod::multigrid", "'multigrid'"},

@@ -56,16 +56,21 @@ py::tuple curvature(const Laplacian& laplacian, Points normals, Points tangents,
                         std::move(found.first), std::move(found.second));
 }
 
-py::tuple segmentsOf(const Laplacian& laplacian, const std::string& method, std::optional<int> count,
-                     const Integers& seeds, const Solving& solving, const py::object& progress) {
-  SegmentOptions options = {
-      .method = chosen<SegmentMethod>("segments: method", method,
-                                      {{"voronoi", SegmentMethod::voronoi}, {"spectral", SegmentMethod::spectral}}),
-      .count = count,
-      .seeds = indicesOf(seeds)};
+py::tuple segmentsOf(const Laplacian& laplacian, Points normals, Points tangents, const std::string& method,
+                     std::optional<int> count, const Integers& seeds, double crease, int least_points,
+                     const Solving& solving, const py::object& progress) {
+  const Frames frames = framesFrom(std::move(normals), std::move(tangents), static_cast<int>(Orientation::consistent));
+  SegmentOptions options = {.method = chosen<SegmentMethod>("segments: method", method,
+                                                            {{"voronoi", SegmentMethod::voronoi},
+                                                             {"spectral", SegmentMethod::spectral},
+                                                             {"parts", SegmentMethod::parts}}),
+                            .count = count,
+                            .seeds = indicesOf(seeds),
+                            .crease = crease,
+                            .least_points = least_points};
   Segments found = run(progress, [&](const Progress& called) {
     options.solver = solving.options(called);
-    return segments(laplacian, options);
+    return segments(laplacian, frames, options);
   });
   return py::make_tuple(owned(std::move(found.labels)), std::move(found.areas), owned(std::move(found.seeds)));
 }

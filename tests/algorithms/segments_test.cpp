@@ -59,6 +59,85 @@ TEST(Segments, OfTwoSpheresWithANeckAreTheSpheres) {
   }
 }
 
+TEST(Segments, PartsOfTwoSpheresWithANeckAreTheSpheres) {
+  const Points points = twoSpheres(3000);
+  std::vector<int> sides;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) sides.push_back(points(i, 0) > 0 ? 1 : 0);
+  const Laplacian cloud = pointCloudLaplacian(points);
+  const Segments found = segments(cloud, {.method = SegmentMethod::parts});
+  ASSERT_EQ(found.areas.size(), 2);
+  EXPECT_GE(purity(found.labels, sides), 0.98);
+  EXPECT_TRUE(found.seeds.empty());
+  const Triangles triangles = surfaceTriangles(cloud);
+  const Laplacian mesh = meshLaplacian(points, triangles);
+  const Segments of_mesh = segments(mesh, meshFrames(mesh, points, triangles), {.method = SegmentMethod::parts});
+  ASSERT_EQ(of_mesh.areas.size(), 2);
+  EXPECT_GE(purity(of_mesh.labels, sides), 0.98);
+}
+
+/// A box of side 1 that stands on a table of side 4, as a sensor above sees them: the table has no points beneath it.
+struct BoxOnTable {
+  Points points{Points::Zero(8000, 3)};
+  std::vector<int> things;  ///< 1: the box
+
+  explicit BoxOnTable(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const auto next = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+    while (things.size() < 8000) {
+      const int face = static_cast<int>(21 * next());  // of equal areas: 4 sides, the top, the table
+      const double u = next(), v = next();
+      Eigen::RowVector3d point;
+      if (face < 4) {
+        point << u - 0.5, face % 2 == 0 ? 0.5 : -0.5, v;
+        if (face < 2) std::swap(point[0], point[1]);
+      } else if (face == 4) {
+        point << u - 0.5, v - 0.5, 1;
+      } else {
+        point << 4 * u - 2, 4 * v - 2, 0;
+        if (std::abs(point[0]) < 0.5 && std::abs(point[1]) < 0.5) continue;
+      }
+      points.row(std::ssize(things)) = point;
+      things.push_back(face < 5 ? 1 : 0);
+    }
+  }
+};
+
+TEST(Segments, PartsOfABoxOnATableAreTheBoxAndTheTable) {
+  const Eigen::Vector3d above(0.3, 0.2, 20);
+  for (const std::uint64_t seed : {101, 102}) {
+    const BoxOnTable scene(seed);
+    CloudOptions options;
+    options.viewpoint = &above;
+    const Segments found = segments(pointCloudLaplacian(scene.points, options), {.method = SegmentMethod::parts});
+    ASSERT_EQ(found.areas.size(), 2);
+    EXPECT_GE(purity(found.labels, scene.things), 0.99);
+    EXPECT_NEAR(found.areas[1], 5, 0.2);
+  }
+}
+
+TEST(Segments, PartsOfAConvexShapeAreTheShape) {
+  for (const shapes::Cloud& cloud : {shapes::sphere(3000), shapes::ellipsoid(3000), shapes::cubeSurface(6000),
+                                     shapes::square(3000), shapes::cylinderPatch(3000)}) {
+    for (const double noise : {0.0, 0.2}) {
+      const double spacing = std::sqrt(cloud.area / static_cast<double>(cloud.points.rows()));
+      const Points points = noise > 0 ? shapes::withNoise(cloud, noise * spacing, 101).points : cloud.points;
+      EXPECT_EQ(segments(pointCloudLaplacian(points), {.method = SegmentMethod::parts}).areas.size(), 1)
+          << cloud.name << ", noise " << noise;
+    }
+  }
+}
+
+TEST(Segments, PartsHaveAtLeastAsManyPointsAsAsked) {
+  const Laplacian laplacian = pointCloudLaplacian(twoSpheres(1000));
+  for (const int least : {1, 100, 5000}) {
+    const Segments found = segments(laplacian, {.method = SegmentMethod::parts, .least_points = least});
+    std::map<int, int> counts;
+    for (const int label : found.labels) ++counts[label];
+    ASSERT_EQ(std::ssize(counts), found.areas.size());
+    for (const auto& [label, count] : counts) EXPECT_GE(count, least == 5000 ? std::ssize(found.labels) : least);
+  }
+}
+
 TEST(Segments, OfABoxWithSeedsOnItsFacesAreTheFaces) {
   const Points points = shapes::cubeSurface(6000).points;
   std::vector<int> faces, seeds(6, -1);
@@ -92,6 +171,17 @@ TEST(Segments, ArePermutedWithThePoints) {
   }
 }
 
+TEST(Segments, PartsArePermutedWithThePoints) {
+  const Points points = twoSpheres(2000);
+  std::vector<int> order(points.rows());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(5));
+  const SegmentOptions parts{.method = SegmentMethod::parts};
+  const Segments expected = segments(pointCloudLaplacian(points), parts);
+  const Segments found = segments(pointCloudLaplacian(points(order, Eigen::all)), parts);
+  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(found.labels[i], expected.labels[order[i]]);
+}
+
 TEST(Segments, OfComponentsBeginWithTheLargest) {
   Points points(1200, 3);
   points << shapes::sphere(1000).points, shapes::sphere(200).points * 0.3;
@@ -122,9 +212,15 @@ TEST(Segments, OfOddPointsAreDefined) {
       EXPECT_TRUE(std::is_sorted(found.areas.begin(), found.areas.end(), std::greater<>()));
     }
   }
-  for (const int exponent : {-400, 400})
-    EXPECT_EQ(segments(pointCloudLaplacian(points * std::ldexp(1.0, exponent)), {.count = 7}).labels,
-              segments(laplacian, {.count = 7}).labels);
+  const SegmentOptions parts{.method = SegmentMethod::parts, .least_points = 5};
+  const Segments of_parts = segments(laplacian, parts);
+  EXPECT_EQ(of_parts.labels[9], of_parts.labels[1]);
+  for (int i = 0; i < 500; ++i) EXPECT_EQ(of_parts.labels[i] >= 0, i != 3 && i != 12);
+  for (const int exponent : {-400, 400}) {
+    const Laplacian scaled = pointCloudLaplacian(points * std::ldexp(1.0, exponent));
+    EXPECT_EQ(segments(scaled, {.count = 7}).labels, segments(laplacian, {.count = 7}).labels);
+    EXPECT_EQ(segments(scaled, parts).labels, of_parts.labels);
+  }
 }
 
 TEST(Segments, RefuseWhatDoesNotFit) {
@@ -138,6 +234,14 @@ TEST(Segments, RefuseWhatDoesNotFit) {
   EXPECT_EQ(refusal({.seeds = {1, 1}}), "segments: seed 1 is given twice, must be given once");
   EXPECT_EQ(refusal({.method = SegmentMethod::spectral, .seeds = {1}}),
             "segments: seeds are given, must be none with SegmentMethod::spectral");
+  EXPECT_EQ(refusal({.method = SegmentMethod::parts, .seeds = {1}}),
+            "segments: seeds are given, must be none with SegmentMethod::parts");
+  EXPECT_EQ(refusal({.method = SegmentMethod::parts, .count = 3}),
+            "segments: count = 3, must be none with SegmentMethod::parts");
+  EXPECT_EQ(refusal({.method = SegmentMethod::parts, .crease = 0}),
+            "segments: crease = 0, must be positive and finite");
+  EXPECT_EQ(refusal({.method = SegmentMethod::parts, .least_points = 0}),
+            "segments: least_points = 0, must be at least 1");
   EXPECT_EQ(support::refusal([&] { segments(pointCloudLaplacian(Points(0, 3))); }),
             "segments: no point is active, must be at least one");
   EXPECT_THROW(segments(laplacian, {.solver = {.progress = [](std::string_view, double) { return false; }}}),

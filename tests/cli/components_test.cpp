@@ -80,6 +80,13 @@ TEST_F(ComponentCommands, AreTheFirstSegments) {
   }
   run({"segment", file, "--seeds", "3,400,5", "--out", in("seeds")});
   EXPECT_EQ(report("seeds")["report"]["seeds"].size(), 3u);
+  run({"segment", file, "--method", "parts", "--out", in("parts")});
+  EXPECT_EQ(report("parts")["report"]["method"], "parts");
+  EXPECT_EQ(report("parts")["report"]["areas"].size(), 2u);
+  EXPECT_EQ(report("parts")["orientation"]["towards"], "outside");
+  expectRefusal({"segment", file, "--method", "parts", "--count", "2"}, "--count excludes --method parts");
+  expectRefusal({"segment", file, "--method", "parts", "--seeds", "2"}, "--seeds excludes --method parts");
+  expectRefusal({"segment", file, "--method", "parts", "--crease", "0"}, "--crease: 0 is not a number in");
   expectRefusal({"segment", file, "--seeds", "3,3"}, "seed 3 is given twice");
   expectRefusal({"segment", file, "--seeds", "3,500"}, "--seeds 3,500");
   expectRefusal({"segment", file, "--seeds", "3", "--method", "spectral"}, "--seeds excludes --method spectral");

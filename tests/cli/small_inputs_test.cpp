@@ -16,6 +16,7 @@ class SmallInputs : public Subcommands {
         words.erase(count, count + 2);
     all.insert(all.end(), {{"hks", "--samples", "2"},
                            {"segment", "--method", "spectral"},
+                           {"segment", "--method", "parts"},
                            {"embed", "--distance", "biharmonic"},
                            {"spectrum", "--with-null-space"},
                            {"distance", "--source", "0", "--method", "heat"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "support/compare.h"
 #include "tufted/pcl/laplacian_estimation.h"
 #include "tufted/pcl/laplacian_smoothing.h"
+#include "tufted/pcl/surface_segmentation.h"
 
 namespace tufted::real_clouds_test {
 namespace {
@@ -65,6 +67,41 @@ TEST_P(RealClouds, HaveTheCoresLaplacian) {
   EXPECT_TRUE(support::sameBits(result.M, core.M));
   EXPECT_EQ(result.status, core.status);
   EXPECT_GT(result.report.active, 0);
+}
+
+/// For each label above 0 the largest intersection with a list, divided by the union.
+std::vector<double> overlaps(const pcl::PointCloud<pcl::PointXYZL>& cloud,
+                             const std::vector<pcl::PointIndices>& lists) {
+  std::map<std::uint32_t, double> points, best;
+  for (const pcl::PointXYZL& p : cloud)
+    if (pcl::isFinite(p) && p.label > 0) ++points[p.label];
+  for (const pcl::PointIndices& list : lists) {
+    std::map<std::uint32_t, double> shared;
+    double labelled = 0;
+    for (const auto i : list.indices)
+      if (cloud[i].label > 0) ++shared[cloud[i].label], ++labelled;
+    for (const auto& [label, count] : shared)
+      best[label] = std::max(best[label], count / (points[label] + labelled - count));
+  }
+  std::vector<double> result;
+  for (const auto& [label, count] : points) result.push_back(best[label]);
+  return result;
+}
+
+TEST_P(RealClouds, PartsAreTheThingsThatAPersonLabelled) {
+  if (std::string(GetParam()).find("mosd") == std::string::npos) GTEST_SKIP() << "without labels";
+  const pcl::PointCloud<pcl::PointXYZL>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZL>);
+  ASSERT_EQ(pcl::io::loadPCDFile((fs::path(TUFTED_DATA_DIR) / "clouds" / (std::string(GetParam()) + ".pcd")).string(),
+                                 *cloud),
+            0);
+  SurfaceSegmentation<pcl::PointXYZL> segmentation;
+  segmentation.setInputCloud(cloud);
+  segmentation.setMethod(SegmentMethod::parts);
+  std::vector<pcl::PointIndices> lists;
+  segmentation.segment(lists);
+  const std::vector<double> overlap = overlaps(*cloud, lists);
+  EXPECT_EQ(overlap.size(), 3U) << "a table and two things";
+  for (const double share : overlap) EXPECT_GT(share, 0.97);
 }
 
 TEST_P(RealClouds, HaveTheCoresLaplacianInAWindow) {

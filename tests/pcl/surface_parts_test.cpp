@@ -169,6 +169,11 @@ TEST(SurfaceSegmentation, PartsAreTheCores) {
       EXPECT_EQ(segmentsOf(*segmentation), expected);
     }
   }
+  for (SurfaceSegmentation<Point>* segmentation : {&own, &shared}) {
+    segmentation->setMethod(SegmentMethod::parts);
+    segmentation->setNumberOfSegments(0);
+    EXPECT_EQ(segmentsOf(*segmentation).size(), 2U) << "the bodies are convex";
+  }
   own.setNumberOfSegments(-2);
   std::vector<std::vector<int>> lists;
   EXPECT_NE(consoleOf([&] { lists = segmentsOf(own); }).find("[tufted::SurfaceSegmentation::segment] "),

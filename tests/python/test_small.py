@@ -28,6 +28,7 @@ METHODS = {
     "gradients": lambda s: s.gradients().frames,
     "segments": lambda s: s.segments().areas,
     "spectral segments": lambda s: s.segments(method="spectral").areas,
+    "parts": lambda s: s.segments(method="parts").areas,
     "distance": lambda s: s.distance(0),
     "heat": lambda s: s.distance(0, method="heat"),
     "path": lambda s: s.path(0, 1).points,

@@ -167,6 +167,9 @@ def test_segments_cover_the_sphere(cloud):
     assert (np.diff(areas) <= 0).all()
     assert set(cloud.segments(seeds=[0, 1]).labels) == {0, 1}
     assert set(cloud.segments(3, method="spectral").labels) == {0, 1, 2}
+    assert set(cloud.segments(method="parts").labels) == {0}
+    with pytest.raises(tufted.InvalidInput, match="count = 3, must be none with method 'parts'"):
+        cloud.segments(3, method="parts")
 
 
 def test_denoise_brings_points_to_the_surface():

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -18,7 +19,8 @@
 namespace segment_command {
 namespace {
 
-constexpr const char* description = "Cut the surface into segments: cells around seeds, or parts between narrow necks.";
+constexpr const char* description =
+    "Cut the surface into segments: things on a table, cells around seeds, or parts between narrow necks.";
 
 constexpr const char* footer =
     R"(Example:
@@ -29,6 +31,9 @@ constexpr const char* footer =
             seed.
   spectral  points are clustered by k-means on the first K eigenvectors, which separates connected components first,
             then parts that are joined by narrow necks
+  parts     the surface is cut along concave creases, as where things stand on a table or touch; there are as many
+            parts as it has. Which side is hollow is seen from the sensor or, where its position is not known (see
+            --viewpoint), from outside. --crease is smaller for more parts
 
 Files in DIR, which replace older ones when all are complete:
   labels.npy   N labels, int32, 0 for the segment of the largest area; -1 at points that take no part and in connected
@@ -40,22 +45,31 @@ Files in DIR, which replace older ones when all are complete:
 need the triangles of the cover.)";
 
 const std::map<std::string, tufted::SegmentMethod> methods = {{"voronoi", tufted::SegmentMethod::voronoi},
-                                                              {"spectral", tufted::SegmentMethod::spectral}};
+                                                              {"spectral", tufted::SegmentMethod::spectral},
+                                                              {"parts", tufted::SegmentMethod::parts}};
+
+std::string nameOf(tufted::SegmentMethod method) {
+  return std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.second == method; })->first;
+}
 
 struct Settings {
   OperatorSettings source;
   std::string seeds;
   tufted::SegmentOptions options;
+  Orienting orienting;
 
   std::vector<std::string> files() const { return {"labels.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
-  checkPositions(source);
   tufted::SegmentOptions& options = settings.options;
+  if (options.method == tufted::SegmentMethod::parts) checkFrames(source);
+  checkPositions(source);
+  if (options.method == tufted::SegmentMethod::parts && options.count)
+    throw tufted::InvalidInput("--count excludes --method parts, which finds as many as there are");
   if (settings.seeds.empty()) return;
-  if (options.method == tufted::SegmentMethod::spectral)
-    throw tufted::InvalidInput("--seeds excludes --method spectral");
+  if (options.method != tufted::SegmentMethod::voronoi)
+    throw tufted::InvalidInput("--seeds excludes --method " + nameOf(options.method));
   options.seeds.clear();
   for (const double index : parseNumbers(settings.seeds, "--seeds"))
     options.seeds.push_back(placeOf({index}, source.points(), "--seeds " + settings.seeds).index);
@@ -67,19 +81,20 @@ Results compute(Settings& settings, Operator& source) {
   const std::optional<int>& count = settings.options.count;
   const auto compute = [&] {
     requireTakingPart(settings.options.seeds, source);
-    return tufted::segments(source.laplacian, settings.options);
+    if (settings.options.method != tufted::SegmentMethod::parts)
+      return tufted::segments(source.laplacian, settings.options);
+    return tufted::segments(source.laplacian, orientedFrames(settings.orienting, source, results), settings.options);
   };
   const tufted::Segments found = !settings.seeds.empty() ? forOption("--seeds " + settings.seeds, compute)
                                  : count                 ? forOption("--count " + std::to_string(*count), compute)
                                                          : compute();
-  const bool is_spectral = settings.options.method == tufted::SegmentMethod::spectral;
   Eigen::VectorXd labels(std::ssize(found.labels));
   long long without = 0;
   for (std::size_t i = 0; i < found.labels.size(); ++i) {
     labels[static_cast<Eigen::Index>(i)] = found.labels[i];
     without += found.labels[i] < 0 ? 1 : 0;
   }
-  results.report["report"] = {{"method", is_spectral ? "spectral" : "voronoi"},
+  results.report["report"] = {{"method", nameOf(settings.options.method)},
                               {"seeds", found.seeds},
                               {"areas", std::vector<double>(found.areas.begin(), found.areas.end())},
                               {"without_label", without},
@@ -108,6 +123,15 @@ void addSegment(CLI::App& app, Run& run) {
       ->check(notEmpty)
       ->excludes(count)
       ->type_name("I,J,...");
-  addChoice(*command, "--method", settings->options.method, methods,
-            "voronoi: cells around seeds; spectral: parts that narrow necks join (voronoi)");
+  addChoice(
+      *command, "--method", settings->options.method, methods,
+      "voronoi: cells around seeds; spectral: parts that narrow necks join; parts: between concave creases (voronoi)");
+  addNumber(*command, "--crease", settings->options.crease, std::numeric_limits<double>::min(),
+            std::numeric_limits<double>::max(),
+            "parts: a crease is where the normal turns inwards by more than RAD over one spacing (0.08)")
+      ->type_name("RAD");
+  addNumber(*command, "--least-points", settings->options.least_points, 1, std::numeric_limits<int>::max(),
+            "parts: smaller sets of points go to the parts around them (100)")
+      ->type_name("N");
+  addOrienting(*command, settings->orienting);
 }

@@ -13,7 +13,8 @@
 namespace tufted {
 
 /// Cuts a cloud into segments: by default the connected components of its surface, which end at jumps, however near
-/// they come to each other; with setNumberOfSegments() the parts that segments() finds.
+/// they come to each other; with SegmentMethod::parts the things that stand on a table or touch each other; with
+/// setNumberOfSegments() that many cells or clusters, see segments().
 ///
 /// The surface is that of all finite points of the input, or the one of setSurface(). Segments hold points of the input
 /// that setIndices names; a point that takes no part is in none. A caller's mistake is reported on PCL's console and
@@ -28,7 +29,8 @@ class SurfaceSegmentation : public pcl::PCLBase<PointT>, public LaplacianSetting
   /// Shared pointer to const, as PCL's classes have it.
   using ConstPtr = pcl::shared_ptr<const SurfaceSegmentation<PointT>>;
 
-  /// Number of segments, see SegmentOptions::count; 0 (default): one per connected component.
+  /// Number of segments, see SegmentOptions::count; 0 (default): one per connected component, or as many parts as there
+  /// are, which take no other number.
   void setNumberOfSegments(int count) { count_ = count; }
   /// See setNumberOfSegments().
   int getNumberOfSegments() const { return count_; }
@@ -37,6 +39,11 @@ class SurfaceSegmentation : public pcl::PCLBase<PointT>, public LaplacianSetting
   void setMethod(SegmentMethod method) { method_ = method; }
   /// See setMethod().
   SegmentMethod getMethod() const { return method_; }
+
+  /// See SegmentOptions::crease; for SegmentMethod::parts.
+  void setCrease(double radians) { crease_ = radians; }
+  /// See setCrease().
+  double getCrease() const { return crease_; }
 
   /// Segments with fewer points are left out; 1 by default.
   void setMinClusterSize(int points) { least_ = points; }
@@ -65,6 +72,7 @@ class SurfaceSegmentation : public pcl::PCLBase<PointT>, public LaplacianSetting
   std::string class_name_ = "SurfaceSegmentation";
   int count_ = 0;
   SegmentMethod method_ = SegmentMethod::voronoi;
+  double crease_ = SegmentOptions().crease;
   int least_ = 1, most_ = std::numeric_limits<int>::max();
 };
 

@@ -37,21 +37,28 @@ class Shape:
             self._solving["threads"], progress)
         return Curvature(mean, gaussian, principal, np.stack([first, second], axis=1))
 
-    def segments(self, count=None, *, method="voronoi", seeds=None, progress=None):
+    def segments(self, count=None, *, method="voronoi", seeds=None, crease=0.08, least_points=100, progress=None):
         """Cuts the surface into segments.
 
-        count: number of segments, >= 1; None: 8, or as many as possible. Ignored with seeds.
-        method: "voronoi": geodesic cells of points far from each other; "spectral": parts that narrow necks join.
+        count: number of segments, >= 1; None: 8, or as many as possible. Ignored with seeds; not for "parts".
+        method: "voronoi": geodesic cells of points far from each other; "spectral": parts that narrow necks join;
+        "parts": parts between concave creases, as of things on a table, as many as there are.
         seeds: active points whose Voronoi cells are the segments.
+        crease, least_points: for "parts": by how many radians over one spacing a normal turns inwards at a crease, > 0;
+        sets of fewer points between creases, >= 1, go to the parts around them.
         Returns labels (N int32, 0 for the segment of the largest area, -1 in none), areas (length^2) and seeds (empty
-        with "spectral").
+        but with "voronoi").
         """
         count = None if count is None else check.whole("segments", "count", count, 1)
         where = np.zeros(0, np.int32) if seeds is None else check.indices("segments", "seeds", seeds, len(self))
-        if method != "spectral":
+        crease = check.number("segments", "crease", crease)
+        least_points = check.whole("segments", "least_points", least_points, 1)
+        progress = check.callback("segments", progress)
+        if method == "voronoi":
             self._need_cover("segments")
-        return Segments(*_tufted.segments(self._laplacian, method, count, where, self._solver(),
-                                          check.callback("segments", progress)))
+        frames = self._signed_frames(None, progress) if method == "parts" else self._frame_parts()
+        return Segments(*_tufted.segments(self._laplacian, *frames, method, count, where, crease, least_points,
+                                          self._solver(), progress))
 
     def smooth(self, points=None, *, method="implicit", time_step=1.0, lambda_=0.5, mu=-0.53, iterations=1, fixed=None,
                keep_volume=False, progress=None):

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "tufted/components.h"
 #include "tufted/pcl/impl/cloud_laplacian.hpp"
@@ -15,10 +16,13 @@ void tufted::SurfaceSegmentation<PointT>::segment(std::vector<pcl::PointIndices>
         detail::wholeInput<PointT>(input_, *indices_, this->hasGivenSurface() ? nullptr : search_, this->getKSearch());
     const Laplacian& laplacian = this->surfaceOf(getClassName(), input);
     const std::vector<int> labels =
-        count_ == 0 ? componentLabels(laplacian)
-                    : segments(laplacian,
-                               {.method = method_, .count = count_, .solver = {.threads = this->getOptions().threads}})
-                          .labels;
+        count_ == 0 && method_ != SegmentMethod::parts
+            ? componentLabels(laplacian)
+            : segments(laplacian, {.method = method_,
+                                   .count = count_ == 0 ? std::nullopt : std::optional<int>(count_),
+                                   .crease = crease_,
+                                   .solver = {.threads = this->getOptions().threads}})
+                  .labels;
     const int most_label = labels.empty() ? -1 : *std::max_element(labels.begin(), labels.end());
     std::vector<pcl::PointIndices> all(static_cast<std::size_t>(most_label + 1));
     for (const pcl::index_t i : *indices_)
