@@ -132,10 +132,12 @@ void normalsOfPcl(const Labelled::Ptr& cloud, const pcl::IndicesPtr& finite) {
   });
 }
 
-void lccp(const Labelled::Ptr& cloud) {
+/// Supervoxels that meet convexly; with the extension also where a common neighbour shows it.
+void lccp(const Labelled::Ptr& cloud, bool is_extended) {
   const pcl::PointCloud<pcl::PointXYZRGBA>::Ptr colored(new pcl::PointCloud<pcl::PointXYZRGBA>);
   pcl::copyPointCloud(*cloud, *colored);
-  report(*cloud, "pcl::LCCPSegmentation, m", {0.01, 0.02, 0.03}, [&](double seed) {
+  const char* const name = is_extended ? "pcl::LCCPSegmentation, extended, m" : "pcl::LCCPSegmentation, m";
+  report(*cloud, name, {0.01, 0.02, 0.03, 0.04}, [&](double seed) {
     const float seed_size = static_cast<float>(seed), voxel = seed_size / 4;
     pcl::SupervoxelClustering<pcl::PointXYZRGBA> super(voxel, seed_size);
     super.setInputCloud(colored);
@@ -149,7 +151,8 @@ void lccp(const Labelled::Ptr& cloud) {
     pcl::LCCPSegmentation<pcl::PointXYZRGBA> segmentation;
     segmentation.setConcavityToleranceThreshold(10);
     segmentation.setSmoothnessCheck(true, voxel, seed_size, 0.1F);
-    segmentation.setKFactor(0);
+    segmentation.setKFactor(is_extended ? 1 : 0);
+    segmentation.setSanityCheck(is_extended);
     segmentation.setInputSupervoxels(voxels, adjacency);
     segmentation.segment();
     const pcl::PointCloud<pcl::PointXYZL>::Ptr labels = super.getLabeledCloud();
@@ -188,5 +191,6 @@ int main(int argc, char** argv) {
     return numbered(cloud->size(), lists);
   });
   normalsOfPcl(cloud, finite);
-  lccp(cloud);
+  lccp(cloud, false);
+  lccp(cloud, true);
 }
