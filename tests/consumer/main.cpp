@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #ifndef EIGEN_DONT_PARALLELIZE
 #error "the target does not say how its copies of Eigen's functions were compiled"
@@ -10,12 +9,14 @@
 
 namespace {
 
+const double pi = std::acos(-1.0);
+
 /// Points spread evenly over the unit sphere, along a spiral of the golden angle.
 tufted::Points spiral(int n) {
   tufted::Points points(n, 3);
   for (int i = 0; i < n; ++i) {
     const double z = 1 - (2 * i + 1.0) / n;
-    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double angle = i * pi * (3 - std::sqrt(5.0));
     const double radius = std::sqrt(1 - z * z);
     points.row(i) << radius * std::cos(angle), radius * std::sin(angle), z;
   }
@@ -31,7 +32,7 @@ bool check(const char* what, double found, double expected, double tolerance) {
 bool cloud() {
   const tufted::Laplacian laplacian = tufted::pointCloudLaplacian(spiral(2000));
   const tufted::VectorXd sums = laplacian.L * tufted::VectorXd::Ones(2000);
-  return check("sum(M) of a sphere", laplacian.M.sum(), 4 * std::numbers::pi, 0.05) &
+  return check("sum(M) of a sphere", laplacian.M.sum(), 4 * pi, 0.05) &
          check("rows of L", sums.cwiseAbs().maxCoeff(), 0, 1e-12) &
          check("cover", tufted::validate(laplacian.cover()).ok(), true, 0);
 }
@@ -39,7 +40,7 @@ bool cloud() {
 bool frames() {
   tufted::LaplacianBuilder builder;
   builder.pointCloud(spiral(2000));
-  return check("sum(M) of the second frame", builder.pointCloud(2 * spiral(2000)).M.sum(), 16 * std::numbers::pi, 0.2);
+  return check("sum(M) of the second frame", builder.pointCloud(2 * spiral(2000)).M.sum(), 16 * pi, 0.2);
 }
 
 /// Links whatever the solver was built with.
@@ -61,7 +62,9 @@ bool mesh() {
 
 bool errors() {
   try {
-    tufted::pointCloudLaplacian(spiral(10), {.neighbors = 2});
+    tufted::CloudOptions options;
+    options.neighbors = 2;
+    tufted::pointCloudLaplacian(spiral(10), options);
   } catch (const tufted::InvalidInput&) {
     return true;
   }

@@ -6,9 +6,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 namespace {
+
+const double pi = std::acos(-1.0);
 
 using Point = pcl::PointNormal;
 using Cloud = pcl::PointCloud<Point>;
@@ -18,7 +19,7 @@ Cloud roughSphere(int n) {
   Cloud cloud(static_cast<std::uint32_t>(n / 2), 2);
   for (int i = 0; i < n; ++i) {
     const double z = 1 - (2 * i + 1.0) / n;
-    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double angle = i * pi * (3 - std::sqrt(5.0));
     const Eigen::Vector3d normal(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
     cloud[i].getVector3fMap() = ((1 + 0.02 * (i % 2)) * normal).cast<float>();
     cloud[i].getNormalVector3fMap() = normal.cast<float>();
@@ -63,7 +64,7 @@ int main(int argc, char** argv) {
   tufted::Laplacian laplacian;
   estimation.compute(laplacian);
 
-  const double area = 4 * std::numbers::pi * radii(*cloud).square().mean();
+  const double area = 4 * pi * radii(*cloud).square().mean();
   return check("roughness of the input", roughness(rough), 0.01, 1e-4) &
                  check("roughness of the output", roughness(*cloud), 0, 1e-3) &
                  check("area", laplacian.M.sum(), area, 0.1) & check("rows", cloud->height, 2, 0) &
