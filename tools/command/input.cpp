@@ -1,6 +1,7 @@
 #include "input.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -8,6 +9,7 @@
 
 #include "options.h"
 #include "tufted/errors.h"
+#include "tufted/memory.h"
 
 CLI::Option* addInput(CLI::App& command, Input& input) {
   CLI::Option* const file =
@@ -42,6 +44,27 @@ tufted::Geometry readAny(const Input& input, const tufted::Progress& progress) {
 }
 
 }  // namespace
+
+std::string memoryText(const Input& input, std::int64_t points, double bytes) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                ": L and M of %lld points take about %.3g GB of memory, and %.3g GB are available; thin the points, or "
+                "cut the file into parts",
+                static_cast<long long>(points), bytes / 1e9, static_cast<double>(tufted::availableMemory()) / 1e9);
+  return input.name() + text;
+}
+
+std::optional<tufted::FileHead> readInputHead(const Input& input) {
+  return input.isStandardInput() ? std::nullopt : tufted::readHead(input.file, input.as);
+}
+
+void refuseTooMany(const Input& input) {
+  const std::optional<tufted::FileHead> head = readInputHead(input);
+  if (!head || head->faces > 0) return;
+  const double needed = static_cast<double>(head->points) * least_build_bytes;
+  if (needed > static_cast<double>(tufted::availableMemory()))
+    throw tufted::FileTooLarge(memoryText(input, head->points, needed));
+}
 
 tufted::Geometry readInput(const Input& input, const tufted::Progress& progress) {
   tufted::Geometry geometry = readAny(input, progress);
