@@ -41,9 +41,9 @@ constexpr std::size_t las_header_bytes = 375;  ///< of LAS 1.4
 constexpr std::size_t las_record_header = 54;  ///< of a variable length record
 constexpr std::size_t las_descriptor = 192;    ///< of the description of one extra value
 namespace las_byte {
-constexpr std::size_t global_encoding = 6, version = 24, header_bytes = 94, points_begin = 96, records = 100,
-                      point_format = 104, point_bytes = 105, old_count = 107, scale = 131, offset = 155, box = 179,
-                      waves = 227, later_records = 235, count = 247, count_by_return = 255;
+constexpr std::size_t global_encoding = 6, version = 24, program = 58, header_bytes = 94, points_begin = 96,
+                      records = 100, point_format = 104, point_bytes = 105, old_count = 107, scale = 131, offset = 155,
+                      box = 179, waves = 227, later_records = 235, count = 247, count_by_return = 255;
 }
 
 /// Stores a value in little endian order.

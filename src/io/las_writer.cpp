@@ -20,7 +20,7 @@
 namespace tufted::io {
 namespace {
 
-constexpr std::size_t longest_name = 32;       // bytes
+constexpr std::size_t longest_name = 32;       // bytes, of a value or of the program
 constexpr std::size_t most_bytes = 65535;      // of a record of extra bytes, or of a point
 constexpr std::size_t return_byte = 14;        // of a point: return number and number of returns
 constexpr std::int64_t old_return_counts = 5;  // numbers of points by return that a header before LAS 1.4 has
@@ -91,6 +91,9 @@ class LasWriter {
       std::memcpy(&scale_[c], header_.data() + las_byte::scale + 8 * c, sizeof(double));
       std::memcpy(&offset_[c], header_.data() + las_byte::offset + 8 * c, sizeof(double));
     }
+    std::string program = "Tufted " TUFTED_VERSION;
+    program.resize(longest_name);
+    header_.replace(las_byte::program, longest_name, program);
     const int format = formatFor(table, geometry.las_header);
     header_[las_byte::point_format] = static_cast<char>(format);
     place(table, format);

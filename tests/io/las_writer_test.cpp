@@ -96,6 +96,7 @@ TEST_F(LasOutput, TheHeaderCountsAndBoundsThePoints) {
   EXPECT_EQ(at<std::uint16_t>(bytes, 6), 1);
   EXPECT_EQ(at<std::uint8_t>(bytes, 24), 1);
   EXPECT_EQ(at<std::uint8_t>(bytes, 25), 4);
+  EXPECT_EQ(bytes.substr(58, 7), "Tufted ");
   EXPECT_EQ(at<std::uint16_t>(bytes, 94), 375);
   EXPECT_EQ(at<std::uint32_t>(bytes, 107), 5u);
   EXPECT_EQ(at<std::uint32_t>(bytes, 111), 3u);

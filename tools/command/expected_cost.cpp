@@ -19,6 +19,13 @@ constexpr double peak_per_stages = 0.9;       ///< peak memory of a build by the
 constexpr double growth_per_doubling = 0.05;  ///< caches help less: time per point of a million points is 1.2 times
                                               ///< that of 100,000
 
+/// Number of finite points. Missing pixels of a depth image cost next to nothing.
+double countFinite(const tufted::Points& points) {
+  double count = 0;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) count += points.row(i).allFinite() ? 1 : 0;
+  return count;
+}
+
 }  // namespace
 
 std::vector<int> middleRows(const tufted::Geometry& geometry, int most) {
@@ -45,7 +52,8 @@ ExpectedCost expectedCost(const tufted::Geometry& geometry, const std::vector<in
     cost.seconds += stage.seconds;
     cost.bytes += static_cast<double>(stage.bytes);
   }
-  const double all = static_cast<double>(geometry.points.rows()), ratio = all / static_cast<double>(points.rows());
+  const double all = static_cast<double>(geometry.points.rows());
+  const double ratio = countFinite(geometry.points) / std::max(1.0, countFinite(points));
   cost.seconds *= ratio * (1 + growth_per_doubling * std::log2(ratio));
   return withFiles(cost.seconds, cost.bytes * ratio * peak_per_stages, all);
 }
