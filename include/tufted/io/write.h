@@ -81,9 +81,9 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// (and alpha); 64-bit integers become double, the largest type of PLY; an organized cloud states its size as obj_info
 /// num_cols and num_rows, and the sensor's pose as viewpoint. PCD: normals are normal_x, normal_y, normal_z; red,
 /// green, blue (and alpha) of 8 bits become a packed rgb (rgba). LAS: fields that an item of the point format can hold
-/// become that item, with colours of 8 bits widened to 16; all others are extra bytes, one for each value, with names of
-/// at most 32 bytes and NaN for no data. Geometry::las_header gives the point format (without waves), scale, offset and
-/// variable length records; without it the format is 6, or 7 with colours, and the scale at most 1e-9 of half the
+/// become that item, with colours of 8 bits widened to 16; all others are extra bytes, one for each value, with names
+/// of at most 32 bytes and NaN for no data. Geometry::las_header gives the point format (without waves), scale, offset
+/// and variable length records; without it the format is 6, or 7 with colours, and the scale at most 1e-9 of half the
 /// extent. LAS holds no triangles.
 ///
 /// All files are written into a hidden folder `dir`/.tufted-XXXXXX, flushed to disk and then renamed one after the
