@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "tufted/options.h"
 #include "tufted/types.h"
@@ -11,6 +12,7 @@ namespace tufted {
 /// unit; they are 0 if fewer than two distinct points are finite.
 struct CloudDescription {
   std::int64_t points = 0;                                  ///< N
+  std::int64_t sampled = 0;                                 ///< points that were looked at, N or those of a sample
   std::int64_t not_finite = 0;                              ///< points of PointStatus::not_finite
   std::int64_t coincident = 0;                              ///< points of PointStatus::coincident
   Eigen::RowVector3d lowest = Eigen::RowVector3d::Zero();   ///< least coordinates of the finite points
@@ -34,5 +36,21 @@ struct CloudDescription {
 /// @throws InvalidInput for `neighbors` < 3 or `threads` < 0
 /// @throws Cancelled when `progress` returns false
 CloudDescription describeCloud(const Points& points, const CloudOptions& options = {});
+
+/// Describes a large cloud by a sample of it. `points`, `not_finite`, `lowest`, `highest` and `float_step` are those of
+/// the whole cloud, all other members those of the sample.
+/// @param points N x 3
+/// @param sample indices, such as those of sampleRegions()
+/// @param options as for describeCloud()
+/// @throws InvalidInput and Cancelled as describeCloud(), and InvalidInput for an index that is not in [0, N)
+CloudDescription describeSample(const Points& points, const std::vector<int>& sample, const CloudOptions& options = {});
+
+/// A sample of a large cloud with the spacing of the whole: all points of some balls whose centres are spread over the
+/// order of the points. Takes one pass over the points.
+/// @param points N x 3; points that are not finite are never in the sample, unless it is the whole cloud
+/// @param most greatest size of the sample, at least 1000; a cloud of at most that many points is its own sample
+/// @return indices, ascending
+/// @throws InvalidInput for a smaller `most`
+std::vector<int> sampleRegions(const Points& points, int most);
 
 }  // namespace tufted

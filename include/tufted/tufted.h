@@ -15,6 +15,7 @@
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/laplacian.h"
 #include "tufted/laplacian_builder.h"
+#include "tufted/memory.h"
 #include "tufted/minimal_surface.h"
 #include "tufted/nearest_point.h"
 #include "tufted/normals.h"

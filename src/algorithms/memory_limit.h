@@ -1,14 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
+
+#include "tufted/memory.h"
 
 namespace tufted {
-
-/// Bytes that this process may take: the least of the machine's memory, of what is available now (MemAvailable), and of
-/// the limits of its control groups (version 1 or 2).
-/// @param root of the file system, for tests
-std::size_t availableMemory(const std::filesystem::path& root = "/");
 
 /// The limit in bytes for a value of SolverOptions::memory_limit: 0 means half of the available memory.
 std::size_t memoryLimit(std::size_t option);

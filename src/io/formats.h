@@ -22,6 +22,10 @@ Geometry readStl(const std::filesystem::path& path, std::string_view bytes);
 Geometry readNpy(const std::filesystem::path& path, std::string_view bytes);
 Geometry readVtk(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
 
+/// The format of a file by its extension, or if that is unknown by its content.
+/// @throws IoError if both are unknown
+FileFormat formatOf(const std::filesystem::path& path, std::string_view bytes);
+
 /// Whether the bytes begin like a file of this format. looksLikeXyz() is asked last, as any text of numbers passes it.
 bool looksLikeVtk(std::string_view bytes);
 bool looksLikePcd(std::string_view bytes);

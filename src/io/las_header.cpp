@@ -14,11 +14,11 @@
 namespace tufted::io {
 namespace {
 
-constexpr std::size_t smallest_header = 227;   // bytes, LAS 1.0 to 1.2
-constexpr std::size_t header_of_1_3 = 235;     // bytes, LAS 1.3
-constexpr std::size_t header_of_1_4 = 375;     // bytes, LAS 1.4
-constexpr std::size_t record_header = 54;      // bytes of a variable length record
-constexpr std::size_t extra_descriptor = 192;  // bytes that describe one extra value
+constexpr std::size_t smallest_header = 227;     // bytes, LAS 1.0 to 1.2
+constexpr std::size_t header_of_1_3 = 235;       // bytes, LAS 1.3
+constexpr std::uint16_t extra_bytes_record = 4;  // number of the record that describes extra bytes
+constexpr std::size_t later_header = 60;         // bytes of the header of a record after the points
+constexpr std::size_t longest_record = 65535;    // bytes, of a record before the points
 
 /// The name of an extra value as one printable word, because headers of PLY and PCD hold no others.
 std::string fieldName(std::string_view text, std::size_t number) {
@@ -47,7 +47,9 @@ class LasHeaderParser {
         refuseByte(path_, 131 + 8 * c, "a scale that is zero or not finite");
       if (!std::isfinite(header_.offset[c])) refuseByte(path_, 155 + 8 * c, "an offset that is not finite");
     }
+    beginKept();
     readRecords();
+    readLaterRecords();
     describeTheRest();
     return std::move(header_);
   }
@@ -69,7 +71,7 @@ class LasHeaderParser {
                  "LAS " + std::to_string(at<std::uint8_t>(24)) + "." + std::to_string(header_.minor) +
                      " is not one of 1.0 to 1.4");
     header_bytes_ = at<std::uint16_t>(94);
-    const std::size_t least = header_.minor == 4 ? header_of_1_4 : smallest_header;
+    const std::size_t least = header_.minor == 4 ? las_header_bytes : smallest_header;
     if (header_bytes_ < least || header_bytes_ > bytes_.size())
       refuseByte(path_, 94, "a header of " + std::to_string(header_bytes_) + " bytes");
     header_.body = at<std::uint32_t>(96);
@@ -80,7 +82,9 @@ class LasHeaderParser {
 
   void readPointFormat() {
     const auto format = at<std::uint8_t>(104);
-    if ((format & 0xc0) != 0) refuseByte(path_, 104, "the points are compressed (LAZ); write them as LAS first");
+    if ((format & 0xc0) != 0)
+      refuseByte(path_, 104,
+                 "the points are compressed (LAZ), which is not read; `laszip` and `pdal translate` write them as LAS");
     if (format > 10) refuseByte(path_, 104, "unknown point format " + std::to_string(format));
     header_.point_format = format;
     header_.record_bytes = at<std::uint16_t>(105);
@@ -121,19 +125,61 @@ class LasHeaderParser {
     const auto records = at<std::uint32_t>(100);
     std::size_t record = header_bytes_;
     for (std::uint32_t r = 0; r < records; ++r) {
-      if (record + record_header > header_.body)
+      if (record + las_record_header > header_.body)
         refuseByte(path_, record,
                    "record " + std::to_string(r + 1) + " of " + std::to_string(records) +
                        " lies behind the beginning of the points");
       const std::size_t length = at<std::uint16_t>(record + 20);
-      if (length > header_.body - record - record_header)
+      if (length > header_.body - record - las_record_header)
         refuseByte(path_, record + 20, "a record of " + std::to_string(length) + " bytes reaches into the points");
-      const std::string_view user = bytes_.substr(record + 2, 16);
-      if (user.starts_with(std::string_view("LASF_Spec\0", 10)) && at<std::uint16_t>(record + 18) == 4)
-        for (std::size_t d = 0; d + extra_descriptor <= length; d += extra_descriptor)
-          readExtra(record + record_header + d);
-      record += record_header + length;
+      if (isOfSpecification(record) && at<std::uint16_t>(record + 18) == extra_bytes_record)
+        for (std::size_t d = 0; d + las_descriptor <= length; d += las_descriptor)
+          readExtra(record + las_record_header + d);
+      keep(record, bytes_.substr(record + las_record_header, length), record + 22);
+      record += las_record_header + length;
     }
+  }
+
+  /// Reads the records after the points, of which only those that can be kept are used.
+  void readLaterRecords() {
+    if (header_.minor < 4) return;
+    auto record = at<std::uint64_t>(las_byte::later_records);
+    if (record < header_.body + static_cast<std::size_t>(header_.points) * header_.record_bytes) return;
+    for (auto left = at<std::uint32_t>(las_byte::later_records + 8); left > 0; --left) {
+      if (record > bytes_.size() || bytes_.size() - record < later_header) return;
+      const auto length = at<std::uint64_t>(record + 20);
+      if (length > bytes_.size() - record - later_header) return;
+      if (length <= longest_record) keep(record, bytes_.substr(record + later_header, length), record + 28);
+      record += later_header + length;
+    }
+  }
+
+  bool isOfSpecification(std::size_t record) const {
+    return bytes_.substr(record + 2, 16).starts_with(std::string_view("LASF_Spec\0", 10));
+  }
+
+  /// Keeps a record, unless it describes extra bytes or waves of the points, which are written anew or not at all.
+  void keep(std::size_t record, std::string_view content, std::size_t description) {
+    const auto number = at<std::uint16_t>(record + 18);
+    const bool is_of_waves = (number >= 100 && number < 355) || number == 65535;
+    if (isOfSpecification(record) && (number == extra_bytes_record || is_of_waves)) return;
+    header_.kept.append(bytes_.substr(record, 20));
+    header_.kept.append(2, '\0').append(bytes_.substr(description, 32)).append(content);
+    put(header_.kept, header_.kept.size() - content.size() - 34, static_cast<std::uint16_t>(content.size()));
+    put(header_.kept, las_byte::records, ++kept_records_);
+  }
+
+  /// Begins LasHeader::kept with the public header.
+  void beginKept() {
+    constexpr std::uint16_t wave_flags = 6;  // bits of the global encoding
+    std::string& kept = header_.kept;
+    kept = bytes_.substr(0, std::min(header_bytes_, las_byte::waves));
+    kept.resize(las_header_bytes);
+    put<std::uint8_t>(kept, las_byte::version + 1, 4);
+    put(kept, las_byte::global_encoding,
+        static_cast<std::uint16_t>(at<std::uint16_t>(las_byte::global_encoding) & ~wave_flags));
+    put<std::uint16_t>(kept, las_byte::header_bytes, las_header_bytes);
+    put<std::uint32_t>(kept, las_byte::records, 0);
   }
 
   void readExtra(std::size_t place) {
@@ -178,6 +224,7 @@ class LasHeaderParser {
   const std::filesystem::path& path_;
   std::string_view bytes_;
   std::size_t header_bytes_ = 0;
+  std::uint32_t kept_records_ = 0;
   LasHeader header_;
 };
 

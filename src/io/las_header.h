@@ -31,7 +31,26 @@ struct LasHeader {
   std::size_t end = 0;   ///< byte at which records after the points begin, or size of the file
   std::array<double, 3> scale = {}, offset = {};
   std::vector<LasExtra> extras;  ///< covers all bytes of a record after those of the format, in order
+  /// The header as that of LAS 1.4, and after it the variable length records except those that describe points. Records
+  /// after the points become records before them, if they are short enough. See Geometry::las_header.
+  std::string kept;
 };
+
+// Sizes in bytes, and the places in the public header that both the reader and the writer use.
+constexpr std::size_t las_header_bytes = 375;  ///< of LAS 1.4
+constexpr std::size_t las_record_header = 54;  ///< of a variable length record
+constexpr std::size_t las_descriptor = 192;    ///< of the description of one extra value
+namespace las_byte {
+constexpr std::size_t global_encoding = 6, version = 24, program = 58, header_bytes = 94, points_begin = 96,
+                      records = 100, point_format = 104, point_bytes = 105, old_count = 107, scale = 131, offset = 155,
+                      box = 179, waves = 227, later_records = 235, count = 247, count_by_return = 255;
+}
+
+/// Stores a value in little endian order.
+template <class T>
+void put(std::string& bytes, std::size_t byte, T value) {
+  bytes.replace(byte, sizeof(T), reinterpret_cast<const char*>(&value), sizeof(T));
+}
 
 /// Bytes of a point record of format 0 to 10, without extra bytes.
 std::size_t lasPointBytes(int point_format);
@@ -40,5 +59,8 @@ std::size_t lasPointBytes(int point_format);
 /// @param bytes the whole file
 /// @throws IoError naming the byte
 LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes);
+
+/// What a LAS file holds except its points: format, names of the fields, and Geometry::las_header.
+Geometry lasWithoutPoints(const LasHeader& header);
 
 }  // namespace tufted::io

@@ -46,10 +46,14 @@ bool looksLikePcd(std::string_view bytes) {
   return !tokens.empty() && isOneOf(lower(tokens[0]), {"version", "fields", "columns"});
 }
 
+std::string formatName(const PcdHeader& header) {
+  constexpr const char* names[] = {"PCD, ascii", "PCD, binary", "PCD, binary_compressed"};
+  return names[static_cast<int>(header.data)];
+}
+
 Geometry readPcd(const std::filesystem::path& path, std::string_view bytes) {
   PcdHeader header = parsePcdHeader(path, bytes);
   nameColumns(path, header.line, header.columns.fields);
-  const char* format = "PCD, ascii";
   LineScanner scanner(path, bytes, {.comment = '#'});
   std::size_t end = bytes.size();
   switch (header.data) {
@@ -57,11 +61,9 @@ Geometry readPcd(const std::filesystem::path& path, std::string_view bytes) {
       readAscii(path, bytes, scanner, header);
       break;
     case PcdHeader::Data::binary:
-      format = "PCD, binary";
       end = readPcdBinary(path, bytes, header);
       break;
     case PcdHeader::Data::binary_compressed:
-      format = "PCD, binary_compressed";
       end = readPcdCompressed(path, bytes, header);
       break;
   }
@@ -70,7 +72,7 @@ Geometry readPcd(const std::filesystem::path& path, std::string_view bytes) {
     noteUnreadLines(path, bytes, scanner, geometry);
   else
     noteUnread(path, bytes, end, geometry);
-  geometry.format = format;
+  geometry.format = formatName(header);
   geometry.width = static_cast<int>(header.width);
   geometry.height = static_cast<int>(header.height);
   geometry.viewpoint = header.viewpoint;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "io/columns.h"
@@ -29,6 +30,9 @@ struct PcdHeader {
 inline bool isPadding(const Field& field) {
   return field.name == "_";
 }
+
+/// The format for people, as Geometry::format has it.
+std::string formatName(const PcdHeader& header);
 
 /// Allocates the values of all fields except padding, which may be far larger than the file.
 void allocate(PcdHeader& header);

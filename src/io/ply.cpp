@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "io/columns.h"
 #include "io/errors.h"
@@ -20,10 +21,7 @@ namespace {
 /// Reads one value per vertex and property. Lists are skipped, because a Field cannot hold them.
 Columns readVertices(const std::filesystem::path& path, std::int64_t header_lines, const PlyElement& element,
                      PlyBody& body) {
-  Columns columns;
-  for (const PlyProperty& property : element.properties)
-    if (!property.is_list) columns.fields.push_back({property.name, property.type, 1, {}});
-  nameColumns(path, header_lines, columns.fields);  // before allocating, as a point may have no values
+  Columns columns = columnsOf(path, header_lines, element);
   allocate(columns, element.count);
   for (std::int64_t i = 0; i < element.count; ++i) {
     body.beginItem(element);
@@ -109,6 +107,27 @@ void skipElement(const PlyElement& element, PlyBody& body) {
 
 }  // namespace
 
+Columns columnsOf(const std::filesystem::path& path, std::int64_t header_lines, const PlyElement& vertices) {
+  Columns columns;
+  for (const PlyProperty& property : vertices.properties)
+    if (!property.is_list) columns.fields.push_back({property.name, property.type, 1, {}});
+  nameColumns(path, header_lines, columns.fields);
+  return columns;
+}
+
+std::string formatName(const PlyHeader& header) {
+  constexpr const char* names[] = {"PLY, ascii", "PLY, binary little endian", "PLY, binary big endian"};
+  return names[static_cast<int>(header.format)];
+}
+
+void organize(const PlyHeader& header, std::int64_t points, Geometry& geometry) {
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  if (header.columns <= 0 || header.rows <= 0 || header.columns > most || header.rows > most) return;
+  if (header.columns * header.rows != points) return;
+  geometry.width = static_cast<int>(header.columns);
+  geometry.height = static_cast<int>(header.rows);
+}
+
 Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces, const Progress& progress) {
   const PlyHeader header = parsePlyHeader(path, bytes);
   const auto body = makePlyBody(path, bytes, header);
@@ -133,14 +152,8 @@ Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool
   Geometry geometry = toGeometry(std::move(columns));
   body->end(geometry);
   geometry.viewpoint = viewpoint;
-  geometry.format = std::string("PLY, ") + (header.format == PlyHeader::Format::ascii           ? "ascii"
-                                            : header.format == PlyHeader::Format::little_endian ? "binary little endian"
-                                                                                                : "binary big endian");
-  if (header.columns > 0 && header.rows > 0 && header.rows < (std::int64_t{1} << 31) &&
-      header.columns < (std::int64_t{1} << 31) && header.columns * header.rows == geometry.points.rows()) {
-    geometry.width = static_cast<int>(header.columns);
-    geometry.height = static_cast<int>(header.rows);
-  }
+  geometry.format = formatName(header);
+  organize(header, geometry.points.rows(), geometry);
   setPolygons(path, soup, progress, geometry);
   return geometry;
 }

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tufted/io/read.h"
+#include "io/columns.h"
 
 namespace tufted::io {
 
@@ -35,6 +35,16 @@ struct PlyHeader {
   std::size_t body = 0;                                    ///< byte at which the values begin
   std::int64_t line = 0;                                   ///< number of lines of the header
 };
+
+/// The columns of the vertices, without values. Lists have none.
+/// @throws IoError naming the line `header_lines` if x, y or z is missing
+Columns columnsOf(const std::filesystem::path& path, std::int64_t header_lines, const PlyElement& vertices);
+
+/// The format for people, as Geometry::format has it.
+std::string formatName(const PlyHeader& header);
+
+/// Sets width and height of an organized cloud of `points` points.
+void organize(const PlyHeader& header, std::int64_t points, Geometry& geometry);
 
 /// Parses a header and checks that the file is long enough for the elements it counts.
 /// @param bytes the whole file

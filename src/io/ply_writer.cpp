@@ -31,15 +31,6 @@ const char* plyType(FieldType type) {
   }
 }
 
-/// Adds the channels of a packed colour, in PCL 0xAARRGGBB.
-void addColor(PointTable& table, const Field& field) {
-  const std::byte* const bytes = field.bytes.data();
-  table.add({"red", FieldType::uint8, 1, bytes + 2, 4});
-  table.add({"green", FieldType::uint8, 1, bytes + 1, 4});
-  table.add({"blue", FieldType::uint8, 1, bytes, 4});
-  if (field.name == "rgba") table.add({"alpha", FieldType::uint8, 1, bytes + 3, 4});
-}
-
 const std::byte* toDouble(PointTable& table, const Field& field) {
   const std::size_t values = table.rows() * field.count;
   std::byte* const made = table.allocate(values * sizeof(double));
@@ -51,8 +42,7 @@ const std::byte* toDouble(PointTable& table, const Field& field) {
 }
 
 void addField(PointTable& table, const Field& field) {
-  if ((field.name == "rgb" || field.name == "rgba") && field.count == 1 && sizeOf(field.type) == 4)
-    return addColor(table, field);
+  if (addPackedColor(table, field)) return;
   const bool wide = field.type == FieldType::int64 || field.type == FieldType::uint64;
   const FieldType type = wide ? FieldType::float64 : field.type;
   const std::byte* const first = wide ? toDouble(table, field) : field.bytes.data();

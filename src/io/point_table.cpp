@@ -94,6 +94,16 @@ PointTable pointTable(const Laplacian& laplacian, const Geometry& geometry, cons
   return table;
 }
 
+bool addPackedColor(PointTable& table, const Field& field) {
+  if ((field.name != "rgb" && field.name != "rgba") || field.count != 1 || sizeOf(field.type) != 4) return false;
+  const std::byte* const bytes = field.bytes.data();
+  table.add({"red", FieldType::uint8, 1, bytes + 2, 4});
+  table.add({"green", FieldType::uint8, 1, bytes + 1, 4});
+  table.add({"blue", FieldType::uint8, 1, bytes, 4});
+  if (field.name == "rgba") table.add({"alpha", FieldType::uint8, 1, bytes + 3, 4});
+  return true;
+}
+
 std::string viewpointText(const Geometry& geometry) {
   std::string text;
   for (const double value : geometry.viewpoint) text.append(text.empty() ? "" : " ").append(shortestText(value));

@@ -47,14 +47,18 @@ class PointTable {
   std::deque<std::vector<std::byte>> made_;
 };
 
-/// Makes the columns of points.ply or points.pcd: x y z, normals, the fields of the input, then mass, boundary, status
-/// and representative, which replace fields of these names.
+/// Makes the columns of points.ply, points.pcd or points.las: x y z, normals, the fields of the input, then mass,
+/// boundary, status and representative, which replace fields of these names.
 /// @param M N masses to write
 /// @param normal_names names of the normals' columns in this format
 /// @param add_field adds a field of the input as columns of this format
 PointTable pointTable(const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M,
                       const std::array<const char*, 3>& normal_names,
                       const std::function<void(PointTable&, const Field&)>& add_field);
+
+/// Adds the channels of a field `rgb` or `rgba` that PCL packed as 0xAARRGGBB, as columns of 8 bits. Returns false if
+/// the field is no packed colour.
+bool addPackedColor(PointTable& table, const Field& field);
 
 /// Geometry::viewpoint as seven numbers that parse to the same doubles.
 std::string viewpointText(const Geometry& geometry);

@@ -47,18 +47,6 @@ FileFormat formatByContent(std::string_view bytes) {
   return FileFormat::automatic;
 }
 
-FileFormat findFormat(const std::filesystem::path& path, std::string_view bytes) {
-  FileFormat format = formatByExtension(path);
-  if (format == FileFormat::automatic) format = formatByContent(bytes);
-  if (format != FileFormat::automatic) return format;
-  const std::string extension = io::lower(path.extension().string());
-  std::string names;
-  for (const Extension& known : extensions) names += std::string(" ") + known.name;
-  io::refuseByte(path, 0,
-                 "unknown file type " + (extension.empty() ? "(no extension)" : io::quote(extension)) +
-                     ", and the content begins like none; known are" + names);
-}
-
 Geometry readFormat(const std::filesystem::path& path, std::string_view bytes, bool with_faces, FileFormat format,
                     const Progress& progress) {
   switch (format) {
@@ -99,11 +87,23 @@ Geometry withinMemory(const std::filesystem::path& path, const Work& work) {
 
 }  // namespace
 
+FileFormat io::formatOf(const std::filesystem::path& path, std::string_view bytes) {
+  FileFormat format = formatByExtension(path);
+  if (format == FileFormat::automatic) format = formatByContent(bytes);
+  if (format != FileFormat::automatic) return format;
+  const std::string extension = lower(path.extension().string());
+  std::string names;
+  for (const Extension& known : extensions) names += std::string(" ") + known.name;
+  refuseByte(path, 0,
+             "unknown file type " + (extension.empty() ? "(no extension)" : quote(extension)) +
+                 ", and the content begins like none; known are" + names);
+}
+
 Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as, FileFormat format,
                const Progress& progress) {
   return withinMemory(name, [&] {
     if (bytes.empty()) io::refuse(name, "is empty");
-    if (format == FileFormat::automatic) format = findFormat(name, bytes);
+    if (format == FileFormat::automatic) format = io::formatOf(name, bytes);
     Geometry geometry = readFormat(name, bytes, as != ReadAs::cloud, format, progress);
     if (as == ReadAs::mesh && !geometry.is_mesh) io::refuse(name, "has no faces");
     if (as == ReadAs::cloud && geometry.is_mesh) {

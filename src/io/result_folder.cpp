@@ -5,6 +5,7 @@
 #include "io/errors.h"
 #include "io/json_file.h"
 #include "io/report_members.h"
+#include "tufted/io/head.h"
 #include "tufted/io/results.h"
 
 namespace tufted {
@@ -46,12 +47,15 @@ Geometry readPoints(const std::filesystem::path& dir, const Progress& progress) 
   const io::ResultFolder folder(dir);
   const nlohmann::json kind = folder.report().value("kind", nlohmann::json());
   // For clouds PCD is preferred, which keeps all fields; for meshes PLY, which has triangles.
-  std::vector<std::string> names = {"points.ply", "points.pcd"};
+  std::vector<std::string> names = {"points.ply", "points.pcd", "points.las"};
   if (kind == "cloud") std::swap(names[0], names[1]);
   const auto name = std::find_if(names.begin(), names.end(), [&](const std::string& each) { return folder.has(each); });
   if (name == names.end()) return {};
   Geometry geometry =
       read(dir / *name, kind == "cloud" ? ReadAs::cloud : ReadAs::automatic, FileFormat::automatic, progress);
+  if (const char* const las = "points.las"; *name != las && folder.has(las)) {
+    if (const auto head = readHead(dir / las)) geometry.las_header = head->geometry.las_header;
+  }
   // A mesh without a face reads as a cloud.
   if (kind == "mesh" && *name == "points.ply") geometry.is_mesh = true;
   const nlohmann::json input = folder.report().value("input", nlohmann::json());

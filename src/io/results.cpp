@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "io/conventions.h"
+#include "io/las_writer.h"
 #include "io/npy.h"
 #include "io/output_file.h"
 #include "io/pcd_writer.h"
@@ -35,8 +36,12 @@ void check(const Laplacian& laplacian, const Geometry& geometry, const std::vect
       throw InvalidInput("writeResults: the name '" + array.name + "' is not one word");
   }
   for (const Format format : options.copies)
-    if (format != Format::ply && format != Format::pcd)
-      throw InvalidInput("writeResults: copies of the points are ply or pcd");
+    if (format != Format::ply && format != Format::pcd && format != Format::las)
+      throw InvalidInput("writeResults: copies of the points are ply, pcd or las");
+}
+
+const char* copyName(Format format) {
+  return format == Format::ply ? "points.ply" : format == Format::pcd ? "points.pcd" : "points.las";
 }
 
 /// Writes values as a .npy file.
@@ -85,7 +90,7 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
   std::vector<std::string> names;
   names.reserve(arrays.size() + options.copies.size() + 1);
   for (const ResultArray& array : arrays) names.push_back(array.name + ".npy");
-  for (const Format format : options.copies) names.emplace_back(format == Format::ply ? "points.ply" : "points.pcd");
+  for (const Format format : options.copies) names.emplace_back(copyName(format));
   names.emplace_back(io::report_name);
   return names;
 }
@@ -104,10 +109,13 @@ void io::stageResults(StagedFiles& files, const Laplacian& laplacian, const Geom
     const std::vector<Convention> about =
         laplacian.status.empty() ? std::vector<Convention>() : conventions(laplacian, WriteOptions());
     for (const Format format : options.copies) {
+      const OutputPath to = files.stage(copyName(format));
       if (format == Format::ply)
-        writePly(files.stage("points.ply"), laplacian, copy, laplacian.M, about);
+        writePly(to, laplacian, copy, laplacian.M, about);
+      else if (format == Format::pcd)
+        writePcd(to, laplacian, copy, laplacian.M, about);
       else
-        writePcd(files.stage("points.pcd"), laplacian, copy, laplacian.M, about);
+        writeLas(to, laplacian, copy, laplacian.M);
       report();
     }
   }

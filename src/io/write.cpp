@@ -9,6 +9,7 @@
 #include "io/conventions.h"
 #include "io/cover_file.h"
 #include "io/frames_file.h"
+#include "io/las_writer.h"
 #include "io/mat.h"
 #include "io/matrix_text.h"
 #include "io/npy.h"
@@ -106,6 +107,8 @@ const ResultFile result_files[] = {
      [](const OutputPath& to, const Results& r) {
        io::writePcd(to, r.laplacian, r.geometry, r.matrices.masses(), r.conventions);
      }},
+    {Format::las, "points.las",
+     [](const OutputPath& to, const Results& r) { io::writeLas(to, r.laplacian, r.geometry, r.matrices.masses()); }},
     {Format::triangles, "triangles.ply",
      [](const OutputPath& to, const Results& r) {
        Geometry surface = r.geometry;

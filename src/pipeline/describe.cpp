@@ -94,7 +94,39 @@ double floatStep(double x) {
          static_cast<double>(value);
 }
 
+/// Sets the members that follow from the coordinates alone.
+void measureExtent(const Points& points, CloudDescription& description) {
+  description.points = points.rows();
+  description.not_finite = 0;
+  Eigen::RowVector3d lowest = Eigen::RowVector3d::Constant(std::numeric_limits<double>::infinity()), highest = -lowest;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    if (!points.row(i).allFinite()) {
+      ++description.not_finite;
+      continue;
+    }
+    lowest = lowest.cwiseMin(points.row(i));
+    highest = highest.cwiseMax(points.row(i));
+  }
+  if (description.not_finite == description.points) return;
+  description.lowest = lowest;
+  description.highest = highest;
+  description.float_step = floatStep(std::max(lowest.cwiseAbs().maxCoeff(), highest.cwiseAbs().maxCoeff()));
+}
+
 }  // namespace
+
+CloudDescription describeSample(const Points& points, const std::vector<int>& sample, const CloudOptions& options) {
+  Points some(static_cast<Eigen::Index>(sample.size()), 3);
+  for (std::size_t s = 0; s < sample.size(); ++s) {
+    if (sample[s] < 0 || sample[s] >= points.rows())
+      throw InvalidInput("describeSample: sample[" + std::to_string(s) + "] = " + std::to_string(sample[s]) +
+                         ", must be in [0, " + std::to_string(points.rows()) + ")");
+    some.row(static_cast<Eigen::Index>(s)) = points.row(sample[s]);
+  }
+  CloudDescription description = describeCloud(some, options);
+  measureExtent(points, description);
+  return description;
+}
 
 CloudDescription describeCloud(const Points& points, const CloudOptions& options) {
   const auto require = [](const char* what, int value, int least) {
@@ -113,19 +145,12 @@ CloudDescription describeCloud(const Points& points, const CloudOptions& options
   const NeighborGraph graph = findNeighbors(cloud, options.neighbors, workers);
 
   CloudDescription description;
-  description.points = points.rows();
-  description.not_finite = std::count(status.begin(), status.end(), PointStatus::not_finite);
   description.coincident = std::count(status.begin(), status.end(), PointStatus::coincident);
   description.neighbors = graph.k;
   description.seconds = watch.seconds();
+  description.sampled = points.rows();
+  measureExtent(points, description);
   if (cloud.size() == 0) return description;
-  description.lowest = description.highest = points.row(cloud.input_index[0]);
-  for (const int i : cloud.input_index) {
-    description.lowest = description.lowest.cwiseMin(points.row(i));
-    description.highest = description.highest.cwiseMax(points.row(i));
-  }
-  description.float_step =
-      floatStep(std::max(description.lowest.cwiseAbs().maxCoeff(), description.highest.cwiseAbs().maxCoeff()));
   const auto length = [&](double q) { return std::ldexp(quantile(graph.distance, q), cloud.exponent); };
   description.spacing = length(0.5);
   description.spacing_low = length(0.05);

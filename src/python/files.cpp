@@ -22,8 +22,9 @@ namespace tufted::python {
 namespace {
 
 const std::map<std::string, Format> formats = {
-    {"npz", Format::npz}, {"mtx", Format::mtx}, {"mat", Format::mat},     {"spmat", Format::spmat},
-    {"ply", Format::ply}, {"pcd", Format::pcd}, {"cover", Format::cover}, {"triangles", Format::triangles}};
+    {"npz", Format::npz},     {"mtx", Format::mtx},     {"mat", Format::mat},
+    {"spmat", Format::spmat}, {"ply", Format::ply},     {"pcd", Format::pcd},
+    {"las", Format::las},     {"cover", Format::cover}, {"triangles", Format::triangles}};
 
 const char* typeOf(FieldType type) {
   constexpr const char* names[] = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"};
@@ -63,7 +64,7 @@ py::tuple stateOf(const Geometry& geometry) {
                                                            reinterpret_cast<const std::uint8_t*>(field.bytes.data()))));
   return py::make_tuple(geometry.format, geometry.points, geometry.normals, fields, geometry.width, geometry.height,
                         geometry.viewpoint, geometry.is_mesh, geometry.triangles, geometry.polygons,
-                        geometry.merged_vertices, geometry.notes);
+                        geometry.merged_vertices, geometry.notes, py::bytes(geometry.las_header));
 }
 
 Geometry geometryFrom(const py::tuple& state) {
@@ -88,6 +89,7 @@ Geometry geometryFrom(const py::tuple& state) {
   geometry.polygons = state[9].cast<std::int64_t>();
   geometry.merged_vertices = state[10].cast<std::int64_t>();
   geometry.notes = state[11].cast<std::vector<std::string>>();
+  geometry.las_header = state[12].cast<std::string>();
   return geometry;
 }
 

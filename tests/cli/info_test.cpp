@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "../io/las_file.h"
 #include "../io/temporary_dir.h"
 #include "command.h"
 #include "samples.h"
@@ -66,11 +70,9 @@ TEST_F(Info, ExpectsTheBuildByPixelsOfADepthImage) {
   const Json cloud = info(dir_.write("cloud.pcd", pcd(1200, 1)));
   EXPECT_EQ(image["structure"], "image");
   EXPECT_EQ(cloud["structure"], "none");
-  EXPECT_LT(image["expected_bytes"], cloud["expected_bytes"]);
   EXPECT_TRUE(contains(runTufted({"info", file}).out, "\nstructure       depth image, built by its pixels\n"));
   const Json searched = Json::parse(runTufted({"info", "--json", file, "--neighbors", "20"}).out);
   EXPECT_EQ(searched["structure"], "none");
-  EXPECT_EQ(searched["expected_bytes"], cloud["expected_bytes"]);
 }
 
 TEST_F(Info, SaysWhatIsOddAboutAMesh) {
@@ -100,6 +102,57 @@ TEST_F(Info, WarnsOfFloatsThatAreTooCoarse) {
   const Json huge = info(dir_.write("huge.xyz", "1e40 0 0\n2e40 0 0\n1e40 1e40 0\n2e40 1e40 0\n"));
   EXPECT_TRUE(huge["float_step"].is_null());  // the step exceeds all floats
   EXPECT_TRUE(isOdd(huge, "coordinates beyond the range of floats"));
+}
+
+/// A LAS file of a square of `side` x `side` points in steps of 1 cm, of which every fifth is in class 5.
+LasFile square(int side) {
+  LasFile file(4, 6);
+  for (int i = 0; i < side * side; ++i) {
+    const std::size_t point = file.addPoint(i % side, i / side, 0);
+    file.set<std::uint8_t>(point + 16, i % 5 == 0 ? 5 : 2);
+  }
+  return file;
+}
+
+TEST_F(Info, LooksAtASampleOfALargeFile) {
+  const std::string file = dir_.write("square.las", square(350).bytes());
+  const Json sample = info(file);
+  EXPECT_EQ(sample["points"], 350 * 350);
+  EXPECT_LE(sample["sampled"], 100000);
+  EXPECT_GE(sample["sampled"], 50000);
+  EXPECT_NEAR(sample["spacing"].get<double>(), 0.01, 1e-9);
+  EXPECT_NEAR(sample["highest"][1].get<double>(), 5400003.49, 1e-6);
+  EXPECT_EQ(sample["classes"], Json::parse(R"([{"number": 2, "name": "ground", "points": 98000},
+                                               {"number": 5, "name": "high vegetation", "points": 24500}])"));
+  EXPECT_FALSE(sample.contains("graph_parts"));
+  EXPECT_TRUE(contains(runTufted({"info", file}).out, " points; --full looks at all\n"));
+  const Json full = Json::parse(runTufted({"info", file, "--full", "--json"}).out);
+  EXPECT_EQ(full["sampled"], full["points"]);
+  EXPECT_EQ(full["graph_parts"], 1);
+}
+
+TEST_F(Info, ACloudThatCannotFitIsRefusedUnread) {
+  // The file is as long as its header says, but takes no room on the disk. A build would take 644 GB.
+  const std::string file = dir_.write("huge.las", LasFile(4, 6).bytes());
+  const std::uint64_t points = (std::uint64_t{1} << 31) - 1;
+  std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+  stream.seekp(247);
+  stream.write(reinterpret_cast<const char*>(&points), sizeof(points));
+  stream.close();
+  std::filesystem::resize_file(file, 375 + 30 * points);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"laplacian", file, "--out", dir_ / "out"}, {"hks", file, "--out", dir_ / "out"}}) {
+    const Result result = runTufted(words);
+    EXPECT_EQ(result.code, 1) << result.err;
+    EXPECT_TRUE(contains(result.err, "L and M of 2147483647 points take 644 GB of memory or more")) << result.err;
+  }
+}
+
+TEST_F(Info, PointsThatAreNotFiniteCannotBecomeLas) {
+  const std::string file = dir_.write("a.xyz", "0 0 0\n1 0 0\nnan 0 0\n0 1 0\n1 1 0\n");
+  const Result result = runTufted({"laplacian", file, "--out", dir_ / "out", "--format", "las"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(contains(result.err, "has points that are not finite, which points.las cannot hold")) << result.err;
 }
 
 TEST_F(Info, TheTextHoldsTheSame) {

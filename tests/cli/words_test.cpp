@@ -95,7 +95,8 @@ TEST_F(Words, AMisspeltValueIsNamedWithTheNearest) {
   expectValue("--structure", "Rings", "is none of automatic|image|none|rings; did you mean `rings`?");
   expectValue("--gluing", "tape", "is none of star|vertex-pair");
   expectValue("--as", "clod", "is none of cloud|mesh; did you mean `cloud`?");
-  expectValue("--format", "spmta", "is none of cover|mat|mtx|npz|pcd|ply|spmat|triangles|none; did you mean `spmat`?");
+  expectValue("--format", "spmta",
+              "is none of cover|las|mat|mtx|npz|pcd|ply|spmat|triangles|none; did you mean `spmat`?");
   expectSaid(
       {"embed", cloud_, "--out", in("out"), "--distance", "biharmonc"},
       "--distance: biharmonc is none of biharmonic|commute; did you mean `biharmonic`? (see tufted embed --help)");

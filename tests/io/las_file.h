@@ -47,6 +47,28 @@ class LasFile {
     endRecords();
   }
 
+  /// Appends a variable length record. Before the first point.
+  void addRecord(const std::string& user, std::uint16_t number, const std::string& content) {
+    const std::size_t begin = bytes_.size();
+    bytes_.append(54, '\0').append(content);
+    bytes_.replace(begin + 2, user.size(), user);
+    set<std::uint16_t>(begin + 18, number);
+    set<std::uint16_t>(begin + 20, static_cast<std::uint16_t>(content.size()));
+    set<std::uint32_t>(100, ++records_);
+    endRecords();
+  }
+
+  /// Appends an extended variable length record (LAS 1.4). After the last point.
+  void addLaterRecord(const std::string& user, std::uint16_t number, const std::string& content) {
+    if (later_records_++ == 0) set<std::uint64_t>(235, bytes_.size());
+    set<std::uint32_t>(243, later_records_);
+    const std::size_t begin = bytes_.size();
+    bytes_.append(60, '\0').append(content);
+    bytes_.replace(begin + 2, user.size(), user);
+    set<std::uint16_t>(begin + 18, number);
+    set<std::uint64_t>(begin + 20, content.size());
+  }
+
   /// Appends a point; returns where it begins.
   std::size_t addPoint(std::int32_t x, std::int32_t y, std::int32_t z) {
     const std::size_t begin = bytes_.size();
@@ -70,6 +92,6 @@ class LasFile {
   int minor_;
   std::size_t record_;
   std::uint64_t points_ = 0;
-  std::uint32_t records_ = 0;
+  std::uint32_t records_ = 0, later_records_ = 0;
   std::string bytes_;
 };

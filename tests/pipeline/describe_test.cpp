@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "shapes/shapes.h"
 #include "tufted/errors.h"
@@ -101,6 +102,49 @@ TEST(DescribeCloud, MistakesAreNamed) {
   EXPECT_THROW(describeCloud(Points(), {.threads = -1}), InvalidInput);
   EXPECT_THROW(describeCloud(shapes::sphere(100).points, {.progress = [](std::string_view, double) { return false; }}),
                Cancelled);
+}
+
+/// A square of random points in random order.
+Points square(int n) {
+  Points points(n, 3);
+  std::mt19937_64 random(1);
+  const auto unit = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  for (int i = 0; i < n; ++i) points.row(i) = Eigen::RowVector3d(unit(), unit(), 0);
+  return points;
+}
+
+TEST(SampleRegions, HaveTheSpacingOfTheWhole) {
+  const int n = 100000;
+  const Points points = square(n);
+  const std::vector<int> sample = sampleRegions(points, 8000);
+  EXPECT_LE(sample.size(), 8000u);
+  EXPECT_GE(sample.size(), 6000u);  // balls may overlap
+  const CloudDescription part = describeSample(points, sample), whole = describeCloud(points);
+  EXPECT_NEAR(part.spacing / whole.spacing, 1, 0.05);
+  EXPECT_EQ(part.points, n);
+  EXPECT_EQ(part.sampled, std::ssize(sample));
+  EXPECT_EQ(part.lowest, whole.lowest);
+  EXPECT_EQ(part.highest, whole.highest);
+}
+
+TEST(SampleRegions, MoveWithThePoints) {
+  const Points points = square(20000);
+  const Points moved = 0x1p20 * points;
+  EXPECT_EQ(sampleRegions(moved, 2000), sampleRegions(points, 2000));
+}
+
+TEST(SampleRegions, OfOddCloudsAreSmall) {
+  Points points = square(20000);
+  EXPECT_EQ(sampleRegions(points, 20000).size(), 20000u);
+  points.topRows(19990).setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_LE(sampleRegions(points, 1000).size(), 10u);
+  points.setConstant(3);
+  EXPECT_LE(sampleRegions(points, 1000).size(), 1000u);
+  points.setConstant(std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(sampleRegions(points, 1000).empty());
+  EXPECT_EQ(describeSample(points, {}).not_finite, 20000);
+  EXPECT_THROW(sampleRegions(points, 999), InvalidInput);
+  EXPECT_THROW(describeSample(points, {20000}), InvalidInput);
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ int runDenoise(Settings& settings) {
   tufted::Geometry geometry = readInput(settings.input, progress);
   if (geometry.is_mesh) throw tufted::IoError(settings.input.name() + ": is a mesh; --as cloud takes its points alone");
   checkField(settings.look, geometry, {{"noise"}});
+  requirePointsOfLas(geometry, settings.copies, settings.input.name());
   if (interrupted()) throw tufted::Cancelled("cancelled");
   bar.setPoints(geometry.points.rows());
   const std::string doubt = doubtOf(geometry, settings.structure);

@@ -1,6 +1,10 @@
 #include "input.h"
 
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -8,6 +12,7 @@
 
 #include "options.h"
 #include "tufted/errors.h"
+#include "tufted/memory.h"
 
 CLI::Option* addInput(CLI::App& command, Input& input) {
   CLI::Option* const file =
@@ -42,6 +47,39 @@ tufted::Geometry readAny(const Input& input, const tufted::Progress& progress) {
 }
 
 }  // namespace
+
+namespace {
+
+/// Bytes that this process may take, by the system and by the shell's `ulimit -v`.
+double usableMemory() {
+  rlimit limit = {};
+  const bool is_known = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  const auto available = static_cast<double>(tufted::availableMemory());
+  return is_known ? std::min(available, static_cast<double>(limit.rlim_cur)) : available;
+}
+
+}  // namespace
+
+std::string memoryText(const Input& input, std::int64_t points, double bytes) {
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      ": L and M of %lld points take %.3g GB of memory or more, and %.3g GB are available; thin the points, or "
+      "cut the file into parts",
+      static_cast<long long>(points), bytes / 1e9, usableMemory() / 1e9);
+  return input.name() + text;
+}
+
+std::optional<tufted::FileHead> readInputHead(const Input& input) {
+  return input.isStandardInput() ? std::nullopt : tufted::readHead(input.file, input.as);
+}
+
+void refuseTooMany(const Input& input) {
+  const std::optional<tufted::FileHead> head = readInputHead(input);
+  if (!head || head->faces > 0) return;
+  const double needed = static_cast<double>(head->points) * least_build_bytes;
+  if (needed > usableMemory()) throw tufted::FileTooLarge(memoryText(input, head->points, needed));
+}
 
 tufted::Geometry readInput(const Input& input, const tufted::Progress& progress) {
   tufted::Geometry geometry = readAny(input, progress);

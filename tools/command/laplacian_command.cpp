@@ -68,7 +68,7 @@ Structures, from which the neighbours of a point are taken:
 FILE is a cloud (PCD, PLY, LAS, text in columns, or NPY of N x 3 or wider) or a mesh (PLY, OBJ, OFF, STL, or VTK legacy
 polygonal data). OBJ, OFF and VTK without faces are clouds. The extension decides the format (.pcd .ply .las .xyz .xyzn
 .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl .npy .vtk), or if it is unknown the content. L and M use the normals
-of FILE only with --normals; points.ply and points.pcd contain them in any case.
+of FILE only with --normals; points.ply, points.pcd and points.las contain them in any case.
 
 Files in DIR, which replace older ones when all are complete; other files in DIR are kept:
   report.json         counts, seconds, options, sign and scale, and the list of the files of this result
@@ -95,6 +95,9 @@ Files in DIR, which replace older ones when all are complete; other files in DIR
   points.ply          the points with the fields mass, boundary, status and representative
   --format pcd
   points.pcd          the same, for PCL
+  --format las
+  points.las          the same as LAS 1.4, for surveyors: the results are extra bytes; coordinates are rounded to the
+                      scale of FILE if it is a LAS file
   --format cover
   cover.npz           the triangles of the tufted cover with their gluing and lengths, which subcommands such as
                       `tufted distance --operator` need; three times as large as the files of npz
@@ -113,16 +116,15 @@ struct Settings {
 };
 
 const std::map<std::string, tufted::Format> formats = {
-    {"npz", tufted::Format::npz},     {"mtx", tufted::Format::mtx},
-    {"mat", tufted::Format::mat},     {"spmat", tufted::Format::spmat},
-    {"ply", tufted::Format::ply},     {"pcd", tufted::Format::pcd},
-    {"cover", tufted::Format::cover}, {"triangles", tufted::Format::triangles}};
+    {"npz", tufted::Format::npz},     {"mtx", tufted::Format::mtx},     {"mat", tufted::Format::mat},
+    {"spmat", tufted::Format::spmat}, {"ply", tufted::Format::ply},     {"pcd", tufted::Format::pcd},
+    {"las", tufted::Format::las},     {"cover", tufted::Format::cover}, {"triangles", tufted::Format::triangles}};
 const std::map<std::string, tufted::Sign> signs = {{"psd", tufted::Sign::psd}, {"igl", tufted::Sign::igl}};
 
 /// Adds the options that say what is written, and how.
 void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
   addFormats(command, options.formats, formats,
-             "Formats, separated by commas: npz, mtx, mat, spmat, ply, pcd, cover, triangles, or none (npz,ply)");
+             "Formats, separated by commas: npz, mtx, mat, spmat, ply, pcd, las, cover, triangles, or none (npz,ply)");
   addChoice(command, "--sign", options.sign, signs,
             "Sign of L in the files: positive semidefinite (psd) or negative semidefinite as in libigl (psd)");
   command.add_flag("--dummy", options.dummy, "Give points that take no part a nonzero diagonal in L and M, see below");
@@ -177,8 +179,10 @@ int runLaplacian(Settings& settings) {
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);
   progress("read", 0);
+  refuseTooMany(settings.input);
   tufted::Geometry geometry = readInput(settings.input, progress);
   checkField(settings.look, geometry, laplacian_fields);
+  requirePointsOfLas(geometry, settings.write.formats, settings.input.name());
   if (interrupted()) throw tufted::Cancelled("cancelled");
   tufted::WriteOptions& write = settings.write;
   const auto isWanted = [&write](tufted::Format format) {

@@ -173,13 +173,16 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   for (const std::string& name : tufted::resultFiles({}, {.copies = settings.copies})) files.push_back(name);
   checkLook(settings.look, settings.out, settings.inputs);
   checkOutput(settings.inputs, settings.out, files);
-  if (settings.folder.empty())
+  if (settings.folder.empty()) {
+    refuseTooMany(settings.input);
     source.geometry = readInput(settings.input, source.progress);
-  else
+  } else {
     readFolder(settings, source);
+  }
   checkpoint();
   if (settings.look.isWanted() && source.geometry.points.rows() == 0 && source.points() > 0)
     throw tufted::IoError(source.name + ": has no points to look at, which `tufted laplacian --format npz,ply` writes");
+  requirePointsOfLas(source.geometry, settings.copies, source.name);
   blameData(source, [&] { check(source); });
   checkField(settings.look, source.geometry, fieldsOf(settings, files));
   bar.setPoints(source.points());

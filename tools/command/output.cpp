@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "options.h"
+#include "tufted/errors.h"
 #include "tufted/io/write.h"
 
 void addOut(CLI::App& command, std::filesystem::path& out) {
@@ -35,8 +36,16 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
 }
 
 void addCopies(CLI::App& command, std::vector<tufted::Format>& target) {
-  addFormats(command, target, {{"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}},
-             "Formats of the copy of the points with the results, separated by commas: ply, pcd, or none (ply)");
+  addFormats(command, target,
+             {{"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}, {"las", tufted::Format::las}},
+             "Formats of the copy of the points with the results, separated by commas: ply, pcd, las, or none (ply)");
+}
+
+void requirePointsOfLas(const tufted::Geometry& geometry, const std::vector<tufted::Format>& formats,
+                        const std::string& name) {
+  const bool is_wanted = std::find(formats.begin(), formats.end(), tufted::Format::las) != formats.end();
+  if (is_wanted && !geometry.points.allFinite())
+    throw tufted::IoError(name + ": has points that are not finite, which points.las cannot hold; --format ply can");
 }
 
 void checkOutput(const std::vector<NamedInput>& inputs, const std::filesystem::path& out,

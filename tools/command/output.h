@@ -16,8 +16,14 @@ void addOut(CLI::App& command, std::filesystem::path& out);
 void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
                 const std::map<std::string, tufted::Format>& formats, const std::string& help);
 
-/// Adds --format for the copies of the points: ply and pcd.
+/// Adds --format for the copies of the points: ply, pcd and las.
 void addCopies(CLI::App& command, std::vector<tufted::Format>& target);
+
+/// Checks before the build that LAS can hold the points if one of the formats is LAS.
+/// @param name of the input, for messages
+/// @throws IoError for points that are not finite
+void requirePointsOfLas(const tufted::Geometry& geometry, const std::vector<tufted::Format>& formats,
+                        const std::string& name);
 
 /// Checks before the build that `files` can be written into `out`.
 /// @param inputs files and folders that the command reads

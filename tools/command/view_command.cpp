@@ -104,8 +104,8 @@ Scene sceneOfPoints(const std::string& title, const tufted::Geometry& geometry) 
 Scene sceneOfFolder(const std::filesystem::path& folder, tufted::Geometry& geometry, const tufted::Progress& progress) {
   const std::vector<std::string> files = tufted::filesOfResult(folder);
   const auto has = [&](const char* name) { return std::find(files.begin(), files.end(), name) != files.end(); };
-  if (!has("points.ply") && !has("points.pcd"))
-    throw tufted::IoError(folder.string() + ": has neither points.ply nor points.pcd, which --format ply writes");
+  if (!has("points.ply") && !has("points.pcd") && !has("points.las"))
+    throw tufted::IoError(folder.string() + ": has no points.ply, points.pcd or points.las, which --format writes");
   geometry = tufted::readPoints(folder, progress);
   std::ifstream file(folder / "report.json");
   const nlohmann::json report = nlohmann::json::parse(file, nullptr, false);

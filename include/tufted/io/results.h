@@ -22,7 +22,7 @@ struct ResultArray {
 
 /// Options of writeResults().
 struct ResultOptions {
-  std::vector<Format> copies = {Format::ply};  ///< copies of the points with the results as fields: ply, pcd or none
+  std::vector<Format> copies = {Format::ply};  ///< copies of the points with the results as fields: ply, pcd, las
   std::string report = "{}\n";                 ///< content of report.json, a JSON object
   Progress progress = {};                      ///< called between files; returning false leaves no file
 };
@@ -32,14 +32,14 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 
 /// Writes results into the directory `dir`, which is created if missing, in the same way as writeLaplacian():
 ///   NAME.npy               float64, or int32; one column: N values, else rows x columns in C order
-///   points.ply, points.pcd as writeLaplacian writes them, with each array per point as a field NAME of float32;
-///                          several columns: NAME_0, NAME_1, ... in PLY, COUNT values in PCD
+///   points.ply, points.pcd, points.las as writeLaplacian writes them, with each array per point as a field NAME of
+///                          float32; several columns: NAME_0, NAME_1, ... in PLY and LAS, COUNT values in PCD
 ///   report.json            options.report, and as `files` the names of all files of this result
 /// @param laplacian from which the results were computed; empty, as `Laplacian()`, if there is none: the copies then
 /// have no mass, boundary, status and representative
 /// @param geometry the points and their fields; not used if there are no copies
 /// @throws InvalidInput if arrays differ in length, a name is not one word, the pose of the sensor is not valid, a
-///         format is neither ply nor pcd or options.report is no JSON object
+///         format is neither ply, pcd nor las, LAS cannot hold the points or options.report is no JSON object
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
@@ -51,7 +51,8 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
 std::vector<std::string> filesOfResult(const std::filesystem::path& dir);
 
 /// Reads the points of the last result in a folder: of a cloud's Laplacian points.pcd before points.ply, otherwise
-/// points.ply before points.pcd. Polygons and merged vertices are those that report.json counts.
+/// points.ply before points.pcd; points.las is the last choice. Polygons and merged vertices are those that report.json
+/// counts.
 /// @return 0 points if the last result has neither
 /// @throws IoError for the same reasons as filesOfResult() and read()
 /// @throws Cancelled when `progress` returns false

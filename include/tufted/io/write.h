@@ -19,6 +19,7 @@ enum class Format : std::uint8_t {
   spmat,  ///< L.spmat, M.spmat: triplets counted from 1, as the paper's program writes them
   ply,    ///< points.ply
   pcd,    ///< points.pcd
+  las,    ///< points.las
   cover,  ///< cover.npz: the cover, larger than all other files together; only distances, paths and triangles need it
   triangles,  ///< triangles.ply: triangles for display, see surfaceTriangles(); of a mesh its own
 };
@@ -67,6 +68,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   M.spmat             the diagonal matrix of the N masses, in the same way
 ///   points.ply          the points, little endian; the triangles of a mesh
 ///   points.pcd          the points, binary
+///   points.las          the points, LAS 1.4
 ///   triangles.ply       as points.ply, but at Laplacian::positions, with surfaceTriangles() or those of the mesh
 ///   measured_positions.npy  float64, N x 3, see Laplacian::positions
 ///   components.npy      int32, N, see Laplacian::component
@@ -78,7 +80,11 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// PLY: a field of several values becomes `name_0`, `name_1`, ...; packed colours (rgb, rgba) become red, green, blue
 /// (and alpha); 64-bit integers become double, the largest type of PLY; an organized cloud states its size as obj_info
 /// num_cols and num_rows, and the sensor's pose as viewpoint. PCD: normals are normal_x, normal_y, normal_z; red,
-/// green, blue (and alpha) of 8 bits become a packed rgb (rgba).
+/// green, blue (and alpha) of 8 bits become a packed rgb (rgba). LAS: fields that an item of the point format can hold
+/// become that item, with colours of 8 bits widened to 16; all others are extra bytes, one for each value, with names
+/// of at most 32 bytes and NaN for no data. Geometry::las_header gives the point format (without waves), scale, offset
+/// and variable length records; without it the format is 6, or 7 with colours, and the scale at most 1e-9 of half the
+/// extent. LAS holds no triangles.
 ///
 /// All files are written into a hidden folder `dir`/.tufted-XXXXXX, flushed to disk and then renamed one after the
 /// other. Existing files of these names are replaced; links, pipes and devices of these names are refused; all other
@@ -88,7 +94,8 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// next one does.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
 /// word, the pose of the sensor is not valid, `build_options` is no JSON object, or the cover is asked for and was not
-/// kept; for Format::triangles for the same reasons as surfaceTriangles()
+/// kept; if LAS cannot hold a point, which is not finite or out of the range of scale and offset, or more than 341
+/// values per point; for Format::triangles for the same reasons as surfaceTriangles()
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,

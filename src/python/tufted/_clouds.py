@@ -232,12 +232,12 @@ def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=
 
 
 # The formats that load() reads, each with the file by which it is recognised.
-_LOADED = {"npz": "L.npz", "ply": "points.ply", "pcd": "points.pcd", "cover": "cover.npz"}
+_LOADED = {"npz": "L.npz", "ply": "points.ply", "pcd": "points.pcd", "las": "points.las", "cover": "cover.npz"}
 
 
 def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=None):
-    """Loads the last result that save() or `tufted laplacian` wrote into a directory, which needs formats npz and ply
-    or pcd.
+    """Loads the last result that save() or `tufted laplacian` wrote into a directory, which needs formats npz and ply,
+    pcd or las.
 
     Files of earlier results are ignored. Without the cover (format "cover"), distances, paths, log_map, Voronoi
     segments and triangles of clouds raise InvalidInput.
@@ -248,8 +248,8 @@ def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=N
     solving = _solving("load", threads, solver, memory_limit)
     laplacian = _tufted.load(directory, True)
     files = _tufted.files_of_result(directory)
-    if "points.ply" not in files and "points.pcd" not in files:
-        raise _tufted.IoError(f"{directory}: has no points.ply and no points.pcd, must have one of them")
+    if not {"points.ply", "points.pcd", "points.las"} & set(files):
+        raise _tufted.IoError(f"{directory}: has no points.ply, points.pcd or points.las, must have one of them")
     geometry = _tufted.read_points(directory, check.callback("load", progress))
     if len(geometry.points) != len(laplacian.status):
         raise _tufted.IoError(f"{directory}: the points are {len(geometry.points)}, and L has "

@@ -1,0 +1,128 @@
+#include "tufted/io/head.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "io/errors.h"
+#include "io/formats.h"
+#include "io/las_header.h"
+#include "io/pcd_header.h"
+#include "io/ply_header.h"
+
+namespace tufted {
+namespace {
+
+/// The bytes of a regular file, which the system reads from disk where they are looked at. Empty if that is not
+/// possible.
+class MappedFile {
+ public:
+  explicit MappedFile(const std::filesystem::path& path) {
+    std::error_code error;
+    // A pipe must not be opened: its writer would fail when it is closed again.
+    if (!std::filesystem::is_regular_file(path, error)) return;
+    const int file = open(path.c_str(), O_RDONLY);
+    struct stat status = {};
+    if (file < 0) return;
+    if (fstat(file, &status) == 0 && status.st_size > 0) {
+      void* const begin = mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, file, 0);
+      if (begin != MAP_FAILED) bytes_ = {static_cast<const char*>(begin), static_cast<std::size_t>(status.st_size)};
+    }
+    close(file);
+  }
+  ~MappedFile() {
+    if (!bytes_.empty()) munmap(const_cast<char*>(bytes_.data()), bytes_.size());
+  }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  std::string_view bytes() const { return bytes_; }
+
+ private:
+  std::string_view bytes_;
+};
+
+bool hasNormals(const std::vector<Field>& fields) {
+  int found = 0;
+  for (const Field& field : fields)
+    if (field.count == 1 && (field.name == "nx" || field.name == "ny" || field.name == "nz")) ++found;
+  return found == 3;
+}
+
+/// Makes the geometry of columns without values.
+FileHead headOf(io::Columns&& columns, std::int64_t points) {
+  FileHead head;
+  head.has_normals = hasNormals(columns.fields);
+  head.points = points;
+  head.geometry = io::toGeometry(std::move(columns));
+  head.geometry.width = static_cast<int>(points);
+  return head;
+}
+
+FileHead headOfPcd(const std::filesystem::path& path, std::string_view bytes) {
+  io::PcdHeader header = io::parsePcdHeader(path, bytes);
+  io::nameColumns(path, header.line, header.columns.fields);
+  FileHead head = headOf(std::move(header.columns), header.points);
+  head.geometry.format = io::formatName(header);
+  head.geometry.width = static_cast<int>(header.width);
+  head.geometry.height = static_cast<int>(header.height);
+  head.geometry.viewpoint = header.viewpoint;
+  return head;
+}
+
+FileHead headOfPly(const std::filesystem::path& path, std::string_view bytes) {
+  const io::PlyHeader header = io::parsePlyHeader(path, bytes);
+  const auto element = [&](const char* name) {
+    return std::find_if(header.elements.begin(), header.elements.end(),
+                        [name](const io::PlyElement& each) { return each.name == name; });
+  };
+  const auto vertices = element("vertex"), faces = element("face"), strips = element("tristrips");
+  if (vertices == header.elements.end()) io::refuseLine(path, header.line, "has no element 'vertex'");
+  FileHead head = headOf(io::columnsOf(path, header.line, *vertices), vertices->count);
+  for (const auto& each : {faces, strips})
+    if (each != header.elements.end()) head.faces += each->count;
+  head.geometry.format = io::formatName(header);
+  head.geometry.viewpoint = header.viewpoint;
+  io::organize(header, head.points, head.geometry);
+  return head;
+}
+
+FileHead headOfLas(const std::filesystem::path& path, std::string_view bytes) {
+  const io::LasHeader header = io::parseLasHeader(path, bytes);
+  FileHead head = {.geometry = io::lasWithoutPoints(header), .points = header.points};
+  head.geometry.width = static_cast<int>(header.points);
+  return head;
+}
+
+}  // namespace
+
+std::optional<FileHead> readHead(const std::filesystem::path& path, ReadAs as) {
+  const MappedFile file(path);
+  if (file.bytes().empty()) return std::nullopt;
+  FileHead head;
+  switch (io::formatOf(path, file.bytes())) {
+    case FileFormat::pcd:
+      head = headOfPcd(path, file.bytes());
+      break;
+    case FileFormat::ply:
+      head = headOfPly(path, file.bytes());
+      break;
+    case FileFormat::las:
+      head = headOfLas(path, file.bytes());
+      break;
+    default:
+      return std::nullopt;
+  }
+  if (as == ReadAs::cloud) head.faces = 0;
+  head.geometry.is_mesh = head.faces > 0;
+  return head;
+}
+
+}  // namespace tufted

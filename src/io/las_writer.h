@@ -1,0 +1,14 @@
+#pragma once
+
+#include "io/output_file.h"
+#include "tufted/io/read.h"
+#include "tufted/laplacian.h"
+
+namespace tufted::io {
+
+/// Writes points.las as documented at writeLaplacian().
+/// @throws InvalidInput if LAS cannot hold the points or their fields, naming the reason
+/// @throws IoError
+void writeLas(const OutputPath& to, const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M);
+
+}  // namespace tufted::io
