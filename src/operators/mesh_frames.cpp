@@ -40,7 +40,7 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
     if (!(size > 0) || !std::isfinite(size)) continue;
     // The normal, as long as twice the area over `size`, as the area itself may underflow.
     const Eigen::RowVector3d normal = (u / size).cross(v / size) * size;
-    const double weight = normal.norm();
+    const double weight = normal.stableNorm();
     if (!(weight > 0)) continue;
     for (int k = 0; k < 3; ++k) {
       moments[triangles(f, k)] += normal.transpose() * (normal / weight);
