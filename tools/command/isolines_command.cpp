@@ -22,7 +22,7 @@ constexpr const char* description = "Find the lines on which a field has given v
 constexpr const char* footer =
     R"(Examples:
   tufted isolines scan.ply --field z --count 10 --out contours
-  tufted isolines mesh.off --values distance/distance.npy --at 0.5,1 --out rings
+  tufted isolines mesh.off --field x --at 0.25,0.5 --out cuts
 
 The field is linear within each triangle of FILE or, for a cloud, of `tufted laplacian --format triangles`. Lines are
 closed, or end where the surface ends, at edges of more than two triangles, and where the field is not finite. Larger
@@ -72,7 +72,8 @@ void check(Settings& settings, const Operator& source) {
     throw tufted::InvalidInput("exactly one of --at and --count must be given");
   settings.field = readSignals(settings.signals, source);
   if (settings.field.cols() != 1)
-    throw tufted::InvalidInput("the field has " + std::to_string(settings.field.cols()) + " columns, must have one");
+    throw tufted::InvalidInput("the field of --field or --values has " + std::to_string(settings.field.cols()) +
+                               " columns, must have one");
   settings.values =
       settings.at.empty() ? valuesBetween(settings.field, settings.count) : parseNumbers(settings.at, "--at");
   for (const double value : settings.values)
@@ -82,6 +83,9 @@ void check(Settings& settings, const Operator& source) {
 
 Results compute(Settings& settings, Operator& source) {
   Results results;
+  for (int i = 0; i < source.points(); ++i)
+    if (source.laplacian.status[source.laplacian.representative[i]] != tufted::PointStatus::active)
+      settings.field(i, 0) = std::numeric_limits<double>::quiet_NaN();  // also where --component leaves points out
   results.lines = tufted::isolines(source.laplacian.positions, joinedTriangles(source), settings.field.col(0),
                                    settings.values, source.progress);
   const std::vector<tufted::Polyline>& lines = *results.lines;
@@ -108,7 +112,6 @@ Results compute(Settings& settings, Operator& source) {
   results.shown = {{.name = "values", .values = settings.field}};
   results.summary.add("lines", "%zu of %s, %lld closed, length %.6g", lines.size(),
                       countText(std::ssize(settings.values), "value").c_str(), closed, length);
-  if (lines.empty()) results.warnings.emplace_back("no line has these values");
   return results;
 }
 

@@ -22,7 +22,7 @@ constexpr const char* description = "Follow a straight line along the surface fr
 constexpr const char* footer =
     R"(Examples:
   tufted trace scan.ply --source 0 --direction 1,0,0 --length 2 --out line
-  tufted trace mesh.off --face 7,1,1,1 --direction 0,0,1 --length 0.5 --out line
+  tufted trace mesh.off --face 2,1,1,1 --direction 0,0,1 --length 0.5 --out line
 
 The direction is projected into the tangent plane of the source, or into the plane of the triangle that --face names.
 The line is straight within triangles, and across an edge when both triangles are unfolded into a plane. It leaves a
@@ -87,8 +87,7 @@ Results compute(Settings& settings, Operator& source) {
   results.report["direction"] = {traced.direction[0], traced.direction[1], traced.direction[2]};
   results.summary.add("length", "%.6g, %lld points", traced.line.length,
                       static_cast<long long>(traced.line.points.rows()));
-  if (traced.reason != tufted::TraceEnd::length)
-    results.warnings.push_back(std::string("the line ends early: ") + reason);
+  results.summary.add("ended by", "%s", reason);
   return results;
 }
 
