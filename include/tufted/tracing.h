@@ -17,7 +17,7 @@ enum class TraceEnd : std::uint8_t {
   length,     ///< it has the length that was asked for
   rim,        ///< the surface ends: an edge of one triangle, or a vertex at such an edge
   branch,     ///< an edge of more than two triangles, or a vertex at such an edge: no way on is straighter than another
-  crossings,  ///< it has crossed ten million edges, which a length in the wrong unit explains
+  crossings,  ///< it has crossed a million edges, which a length in the wrong unit explains
 };
 
 /// A straight line on a surface, as GeodesicTracer traces it.

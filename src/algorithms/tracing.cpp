@@ -25,8 +25,9 @@ using Eigen::Vector2d;
 constexpr const char* constructor = "GeodesicTracer";
 constexpr const char* query_name = "GeodesicTracer::query";
 constexpr const char* direction_name = "GeodesicTracer::query: direction";
-/// A line ends after this many crossings, whose points fill 240 MB. Surfaces have fewer edges across.
-constexpr int most_crossings = 10'000'000;
+/// A line ends after this many crossings, whose points fill 24 MB: a thousand times around a mesh of a million
+/// triangles.
+constexpr int most_crossings = 1'000'000;
 /// Crossings between two calls of `progress`.
 constexpr int between_reports = 65536;
 /// Cosines that differ by less are equal but for rounding: both triangles at an edge meet a direction along it.
@@ -225,7 +226,7 @@ TracedLine GeodesicTracer::query(const SurfacePoint& start, const RowVector3d& d
   std::vector<RowVector3d> places;
   std::optional<FaceAhead> ahead;
   const double whole = std::ldexp(length, -state.faces.exponent);
-  double left = whole;
+  double travelled = 0;
   if (beginning.vertex >= 0) {
     const Vector2d heading = inTangentPlane(direction_name, state.frames, beginning.vertex, direction).normalized();
     const RowVector3d x = state.frames.tangents.row(beginning.vertex);
@@ -241,13 +242,13 @@ TracedLine GeodesicTracer::query(const SurfacePoint& start, const RowVector3d& d
   for (int crossings = 0; ahead; ++crossings) {
     if (crossings % between_reports == 0) workers.report("trace", 0);
     const Leaving leaving = leavingOf(*ahead);
-    const double share = left < leaving.distance ? left / leaving.distance : 1;
+    const double left = whole - travelled, share = left < leaving.distance ? left / leaving.distance : 1;
     std::array<double, 3> weights;
     for (int k = 0; k < 3; ++k) weights[k] = (1 - share) * ahead->weights[k] + share * leaving.weights[k];
     if (const RowVector3d at = state.place(ahead->face, weights); at != places.back()) places.push_back(at);
     result.reason = crossings == most_crossings ? TraceEnd::crossings : TraceEnd::length;
     const bool is_end = left <= leaving.distance || crossings == most_crossings;
-    left = std::max(left - leaving.distance, 0.0);
+    travelled += std::min(left, leaving.distance);
     const std::optional<FaceAhead> next = is_end ? std::nullopt : state.beyond(*ahead, leaving, result.reason);
     if (!next) {
       result.end = state.pointIn(ahead->face, weights);
@@ -255,7 +256,7 @@ TracedLine GeodesicTracer::query(const SurfacePoint& start, const RowVector3d& d
     }
     ahead = next;
   }
-  result.line.length = std::ldexp(whole - left, state.faces.exponent);
+  result.line.length = result.reason == TraceEnd::length ? length : std::ldexp(travelled, state.faces.exponent);
   result.line.points.resize(std::ssize(places), 3);
   for (std::size_t i = 0; i < places.size(); ++i) result.line.points.row(static_cast<Eigen::Index>(i)) = places[i];
   return result;

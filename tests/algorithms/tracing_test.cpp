@@ -296,8 +296,14 @@ TEST(Trace, EndsAtRimsAndBranches) {
   EXPECT_EQ(away.line.points, Points(grid.points.row(0)));
   EXPECT_EQ(away.line.length, 0);
   // From rim to rim through vertices.
-  const TracedLine diagonal = square.query(SurfacePoint::vertex(0), {1, 1, 0}, 9);
+  const TracedLine diagonal = square.query(SurfacePoint::vertex(0), {1, 1, 0}, 1e300);
   EXPECT_NEAR(diagonal.line.length, std::sqrt(2), 1e-12);
+  const shapes::Mesh closed = shapes::tetrahedron();
+  const TracedLine endless =
+      tracerOf(closed.points, closed.triangles)
+          .query(SurfacePoint::inFace(closed.points, closed.triangles, 0, {1, 2, 4}), {1, 2, 4}, 1e300);
+  EXPECT_EQ(endless.reason, TraceEnd::crossings);
+  EXPECT_NEAR(endless.line.length, polylineLength(endless.line.points), 1e-6 * endless.line.length);
   const TracedLine nothing = square.query(SurfacePoint::vertex(6), {1, 1, 0}, 0);
   EXPECT_EQ(nothing.line.points, Points(grid.points.row(6)));
   EXPECT_EQ(nothing.reason, TraceEnd::length);
@@ -359,6 +365,7 @@ TEST(Trace, MovesTurnsAndScalesWithThePoints) {
   for (const double scale : {0x1p-700, 0x1p400}) {
     const TracedLine scaled =
         tracerOf(scale * mesh.points, mesh.triangles).query(SurfacePoint::vertex(start), direction, 2 * scale);
+    ASSERT_EQ(scaled.line.points.rows(), traced.line.points.rows());
     EXPECT_EQ(scaled.line.points, Points(scale * traced.line.points));
     EXPECT_EQ(scaled.line.length, 2 * scale);
   }

@@ -76,7 +76,7 @@ class Distances:
         direction: 3 values, of any length, projected into the tangent plane of the point or the plane of the triangle.
         length: >= 0. A vertex that the line meets is left with equal angles on both sides.
         Returns points (K x 3, from the start over all edges that the line crosses to the end), length, ended_by
-        ("length"; "rim": the surface ends; "branch": more than two triangles meet; "crossings": after ten million),
+        ("length"; "rim": the surface ends; "branch": more than two triangles meet; "crossings": after a million),
         direction (3, at the end), corners and barycentric (3 each, the place of the end).
         """
         direction = check.vector_of_three("trace", "direction", direction)
