@@ -102,11 +102,8 @@ class LevelSet {
     if (line.is_closed && places.size() > 1 && places.back() == places.front()) places.pop_back();
     if (places.size() < 2) return;
     line.value = value_;
-    line.points.resize(std::ssize(places), 3);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      line.points.row(static_cast<Eigen::Index>(i)) = places[i];
-      if (i > 0) line.length += (places[i] - places[i - 1]).stableNorm();
-    }
+    line.points = Eigen::Map<const Points>(places.front().data(), std::ssize(places), 3);
+    for (std::size_t i = 1; i < places.size(); ++i) line.length += (places[i] - places[i - 1]).stableNorm();
     if (line.is_closed) line.length += (places.front() - places.back()).stableNorm();
     lines.push_back(std::move(line));
   }

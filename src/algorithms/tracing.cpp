@@ -88,6 +88,7 @@ struct GeodesicTracer::State {
   Beginning located(const SurfacePoint& start) const;
   FaceAhead startInFace(const Beginning& start, const RowVector3d& direction) const;
   std::optional<FaceAhead> startAtVertex(int vertex, const Vector2d& heading) const;
+  std::optional<FaceAhead> begin(const SurfacePoint& start, const RowVector3d& direction, TracedLine& result) const;
   std::optional<FaceAhead> beyond(const FaceAhead& ahead, const Leaving& leaving, TraceEnd& reason) const;
 };
 
@@ -158,7 +159,7 @@ FaceAhead GeodesicTracer::State::startInFace(const Beginning& start, const RowVe
   const RowVector3d first = offset(a, b), second = offset(a, c), normal = first.cross(second).stableNormalized();
   if (normal.isZero(0)) throw InvalidInput(std::string(query_name) + ": the triangle of start has no area, must have");
   const Frames frame{normal, first.stableNormalized(), Orientation::arbitrary};
-  const Vector2d heading = inTangentPlane(direction_name, frame, 0, direction).normalized();
+  const Vector2d heading = inTangentPlane(direction_name, frame, 0, direction).stableNormalized();
   const RowVector3d origin = start.weights[1] * first + start.weights[2] * second;
   const std::array<RowVector3d, 3> corners = {-origin, first - origin, second - origin};
   FaceAhead ahead{start.face, {}, start.weights};
@@ -200,6 +201,20 @@ std::optional<FaceAhead> GeodesicTracer::State::startAtVertex(int vertex, const 
   return startAt(faces, best, angle);
 }
 
+/// The face in which a line starts; nullopt if it leads off the surface at a vertex, where it ends as the result says.
+std::optional<FaceAhead> GeodesicTracer::State::begin(const SurfacePoint& start, const RowVector3d& direction,
+                                                      TracedLine& result) const {
+  const Beginning beginning = located(start);
+  if (beginning.vertex < 0) return startInFace(beginning, direction);
+  const int vertex = beginning.vertex;
+  const Vector2d heading = inTangentPlane(direction_name, frames, vertex, direction).stableNormalized();
+  const RowVector3d x = frames.tangents.row(vertex), y = RowVector3d(frames.normals.row(vertex)).cross(x);
+  result.end = SurfacePoint::vertex(vertex);
+  result.direction = heading.x() * x + heading.y() * y;
+  result.reason = TraceEnd::rim;
+  return startAtVertex(vertex, heading);
+}
+
 /// The face after a place where a line leaves a face; nullopt and why, if there is none.
 std::optional<FaceAhead> GeodesicTracer::State::beyond(const FaceAhead& ahead, const Leaving& leaving,
                                                        TraceEnd& reason) const {
@@ -221,24 +236,12 @@ TracedLine GeodesicTracer::query(const SurfacePoint& start, const RowVector3d& d
   if (!(length >= 0) || !std::isfinite(length))
     throw InvalidInput(std::string(query_name) + ": length = " + std::to_string(length) + ", must be >= 0 and finite");
   const Workers workers(1, progress);
-  const Beginning beginning = state.located(start);
   TracedLine result;
-  std::vector<RowVector3d> places;
-  std::optional<FaceAhead> ahead;
+  std::optional<FaceAhead> ahead = state.begin(start, direction, result);
+  std::vector<RowVector3d> places = {ahead ? state.place(ahead->face, ahead->weights)
+                                           : RowVector3d(state.points.row(result.end.corners[0]))};
   const double whole = std::ldexp(length, -state.faces.exponent);
   double travelled = 0;
-  if (beginning.vertex >= 0) {
-    const Vector2d heading = inTangentPlane(direction_name, state.frames, beginning.vertex, direction).normalized();
-    const RowVector3d x = state.frames.tangents.row(beginning.vertex);
-    places.emplace_back(state.points.row(beginning.vertex));
-    ahead = state.startAtVertex(beginning.vertex, heading);
-    result.end = SurfacePoint::vertex(beginning.vertex);
-    result.direction = heading.x() * x + heading.y() * state.frames.normals.row(beginning.vertex).cross(x);
-    result.reason = TraceEnd::rim;
-  } else {
-    ahead = state.startInFace(beginning, direction);
-    places.push_back(state.place(beginning.face, beginning.weights));
-  }
   for (int crossings = 0; ahead; ++crossings) {
     if (crossings % between_reports == 0) workers.report("trace", 0);
     const Leaving leaving = leavingOf(*ahead);
@@ -257,8 +260,7 @@ TracedLine GeodesicTracer::query(const SurfacePoint& start, const RowVector3d& d
     ahead = next;
   }
   result.line.length = result.reason == TraceEnd::length ? length : std::ldexp(travelled, state.faces.exponent);
-  result.line.points.resize(std::ssize(places), 3);
-  for (std::size_t i = 0; i < places.size(); ++i) result.line.points.row(static_cast<Eigen::Index>(i)) = places[i];
+  result.line.points = Eigen::Map<const Points>(places.front().data(), std::ssize(places), 3);
   return result;
 }
 

@@ -368,6 +368,10 @@ TEST(Trace, MovesTurnsAndScalesWithThePoints) {
     ASSERT_EQ(scaled.line.points.rows(), traced.line.points.rows());
     EXPECT_EQ(scaled.line.points, Points(scale * traced.line.points));
     EXPECT_EQ(scaled.line.length, 2 * scale);
+    // Lengths of directions do not matter.
+    const TracedLine same =
+        GeodesicTracer(mesh.points, mesh.triangles, frames).query(SurfacePoint::vertex(start), scale * direction, 2);
+    EXPECT_LT((lastOf(same) - lastOf(traced)).norm(), 1e-12);
   }
   const auto n = static_cast<int>(mesh.points.rows());
   const std::vector<int> order = shapes::Random(1).permutation(n);
