@@ -33,6 +33,7 @@ draw distance distance "$building" --source 3446 --camera -128,24 --size 760x480
 draw eigenvector spectrum "${on_bunny[@]}" --count 8 --column 5
 draw parts segment "${on_bunny[@]}" --count 12
 draw logmap logmap "$clouds/cturtle.pcd" --near 0,0,2 --size 760x500
+draw trace trace "$bunny" "${view[@]}" --near -0.3,0.2,0.3 --direction 1,-0.6,0 --length 3.5 --color none
 draw map parameterize "$samples/meshes/nefertiti.off" --size 760x480
 draw boundary_kinds laplacian "$table" --color boundary --size 640x420
 # The triangles of a depth image, by its pixels and by the nearest points in space.

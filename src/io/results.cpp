@@ -6,6 +6,7 @@
 
 #include "io/conventions.h"
 #include "io/las_writer.h"
+#include "io/line_files.h"
 #include "io/npy.h"
 #include "io/output_file.h"
 #include "io/pcd_writer.h"
@@ -90,6 +91,7 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
   std::vector<std::string> names;
   names.reserve(arrays.size() + options.copies.size() + 1);
   for (const ResultArray& array : arrays) names.push_back(array.name + ".npy");
+  if (options.lines) names.insert(names.end(), {"lines.ply", "lines.obj"});
   for (const Format format : options.copies) names.emplace_back(copyName(format));
   names.emplace_back(io::report_name);
   return names;
@@ -140,6 +142,10 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
       writeArray<std::int32_t>(to, "<i4", array.values);
     else
       writeArray<double>(to, "<f8", array.values);
+  }
+  if (options.lines) {
+    io::writeLinesPly(files.stage("lines.ply"), *options.lines);
+    io::writeLinesObj(files.stage("lines.obj"), *options.lines);
   }
   io::stageResults(files, laplacian, geometry, arrays, options);
   files.commit();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/symmetric_eigen.h"
+#include "operators/corners_in_range.h"
 #include "stars/tangent_frame.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -16,14 +17,6 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "meshFrames";
-
-void checkCorners(const TrianglesRef& triangles, Eigen::Index points) {
-  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-    for (const int corner : triangles.row(f))
-      if (corner < 0 || corner >= points)
-        throw InvalidInput(std::string(function_name) + ": corner " + std::to_string(corner) + " of triangle " +
-                           std::to_string(f) + ", must lie in [0, " + std::to_string(points) + ")");
-}
 
 /// Whether triangles are consistently oriented: no two have an edge in the same direction.
 /// @param directed edges of all triangles, each from its first to its second corner; overwritten
@@ -35,7 +28,7 @@ bool agree(std::vector<std::uint64_t>& directed) {
 }  // namespace
 
 Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
-  checkCorners(triangles, points.rows());
+  requireCornersInRange(function_name, triangles, points.rows());
   std::vector<Eigen::Matrix3d> moments(points.rows(), Eigen::Matrix3d::Zero());
   Points sums = Points::Zero(points.rows(), 3);
   std::vector<std::uint64_t> directed;
@@ -47,7 +40,7 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
     if (!(size > 0) || !std::isfinite(size)) continue;
     // The normal, as long as twice the area over `size`, as the area itself may underflow.
     const Eigen::RowVector3d normal = (u / size).cross(v / size) * size;
-    const double weight = normal.norm();
+    const double weight = normal.stableNorm();
     if (!(weight > 0)) continue;
     for (int k = 0; k < 3; ++k) {
       moments[triangles(f, k)] += normal.transpose() * (normal / weight);
@@ -76,7 +69,7 @@ Frames meshFrames(const Laplacian& laplacian, const PointsRef& points, const Tri
   if (points.rows() != std::ssize(laplacian.status))
     throw InvalidInput(std::string(function_name) + ": points has " + std::to_string(points.rows()) +
                        " rows, must have " + std::to_string(laplacian.status.size()) + ", as the Laplacian");
-  checkCorners(triangles, points.rows());
+  requireCornersInRange(function_name, triangles, points.rows());
   Triangles joined = triangles;
   for (int& corner : joined.reshaped()) corner = laplacian.representative[corner];
   Frames frames = meshFrames(points, joined);

@@ -1,6 +1,7 @@
-// Geodesic distances and paths.
+// Geodesic distances, and lines on the surface.
 #include "tufted/distance.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,7 +10,9 @@
 #include "python/arrays.h"
 #include "python/module.h"
 #include "python/running.h"
+#include "tufted/isolines.h"
 #include "tufted/path.h"
+#include "tufted/tracing.h"
 
 namespace py = pybind11;
 
@@ -81,6 +84,33 @@ py::tuple pathBetween(const PathSolver& solver, int from, int to, const py::obje
   return py::make_tuple(std::move(path.points), path.length);
 }
 
+GeodesicTracer tracerOf(const Doubles& points, const Integers& faces, Points normals, Points tangents) {
+  return {pointsOf(points), trianglesOf(faces), {std::move(normals), std::move(tangents), Orientation::arbitrary}};
+}
+
+/// Points, length, why the line ends, direction there, and corners and barycentric coordinates of the end.
+py::tuple traced(const GeodesicTracer& tracer, const SurfacePoint& start, const Eigen::RowVector3d& direction,
+                 double length, const py::object& progress) {
+  static constexpr std::array reasons = {"length", "rim", "branch", "crossings"};  // TraceEnd
+  TracedLine found =
+      run(progress, [&](const Progress& called) { return tracer.query(start, direction, length, called); });
+  return py::make_tuple(std::move(found.line.points), found.line.length,
+                        reasons[static_cast<std::size_t>(found.reason)], found.direction, found.end.corners,
+                        found.end.weights);
+}
+
+/// Of each line the points, the value, the length, and whether it is closed.
+py::list isolinesOf(const Doubles& points, const Integers& faces, const VectorXd& field,
+                    const std::vector<double>& values, const py::object& progress) {
+  std::vector<Polyline> lines = run(progress, [&](const Progress& called) {
+    return isolines(pointsOf(points), trianglesOf(faces), field, values, called);
+  });
+  py::list result;
+  for (Polyline& line : lines)
+    result.append(py::make_tuple(std::move(line.points), line.value, line.length, line.is_closed));
+  return result;
+}
+
 }  // namespace
 
 void addDistance(py::module_& module) {
@@ -93,6 +123,8 @@ void addDistance(py::module_& module) {
       .def("nearest", &nearest)
       .def_property_readonly("time_step", &DistanceSolver::timeStep);
   py::class_<PathSolver>(module, "PathSolver").def(py::init(&pathSolverOf)).def("path", &pathBetween);
+  py::class_<GeodesicTracer>(module, "GeodesicTracer").def(py::init(&tracerOf)).def("query", &traced);
+  module.def("isolines", &isolinesOf);
 }
 
 }  // namespace tufted::python

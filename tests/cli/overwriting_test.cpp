@@ -109,6 +109,8 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       {{"poisson", cloud_, "--values", "INPUT"}, npy},
       {{"poisson", cloud_, "--field", "x", "--pins", "INPUT"}, pins},
       {{"filter", cloud_, "--count", "3", "--values", "INPUT"}, npy},
+      {{"trace", cloud_, "--sources", "INPUT", "--direction", "1,2,3", "--length", "1"}, "3\n"},
+      {{"isolines", cloud_, "--count", "3", "--values", "INPUT"}, npy},
       {{"smooth", cloud_, "--values", "INPUT"}, npy},
       {{"smooth", cloud_, "--fixed", "INPUT"}, indices},
       {{"minimal", mesh, "--fixed", "INPUT"}, "1\n2\n3\n4\n"},

@@ -22,6 +22,8 @@ inline const std::vector<std::vector<std::string>> commands = {
     {"filter", "--positions", "--count", "3"},
     {"distance", "--source", "0"},
     {"path", "--from", "0", "--to", "1"},
+    {"trace", "--source", "0", "--direction", "1,2,3", "--length", "0.5"},
+    {"isolines", "--field", "x", "--count", "3"},
     {"interpolate", "--pin", "0=1"},
     {"poisson", "--field", "x"},
     {"poisson", "--field", "x", "--pin", "0=1"},

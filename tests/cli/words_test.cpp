@@ -31,12 +31,13 @@ TEST_F(Words, AnUnknownCommandIsNamedWithTheNearest) {
   expectSaid({"inof", cloud_}, said("inof", "info"));
   expectSaid({"help", "spectum"}, said("spectum", "spectrum"));
   expectSaid({"validate-fil"}, said("validate-fil", "validate"));
-  expectSaid({"xyz"},
-             "unknown command `xyz`, must be one of info, view, validate, laplacian, operators, distance, path, "
-             "signed-distance, logmap, "
-             "transport, interpolate, extend, weights, poisson, green, spectrum, hks, embed, filter, normals, "
-             "curvature, segment, "
-             "parameterize, denoise, smooth, minimal, deform (see tufted --help)");
+  expectSaid(
+      {"xyz"},
+      "unknown command `xyz`, must be one of info, view, validate, laplacian, operators, distance, path, trace, "
+      "signed-distance, logmap, "
+      "transport, isolines, interpolate, extend, weights, poisson, green, spectrum, hks, embed, filter, normals, "
+      "curvature, segment, "
+      "parameterize, denoise, smooth, minimal, deform (see tufted --help)");
   expectSaid({"--hlep"}, "unknown option `--hlep`; did you mean `--help`? (see tufted --help)");
 }
 

@@ -54,6 +54,12 @@ def test_algorithms(name, tmp_path):
         (["interpolate", "--pin", "3=1", "--pin", "90=2"], "values", lambda: surface.harmonic({3: 1.0, 90: 2.0})),
         (["extend", "--pin", "3=1", "--pin", "90=2"], "values", lambda: surface.extend([3, 90], [1.0, 2.0])),
         (["transport", "--source", "3", "--vector", "1,2,3"], "vectors", lambda: surface.transport(3, [1, 2, 3])),
+        (["trace", "--source", "3", "--direction", "1,2,3", "--length", "2"], "path",
+         lambda: surface.trace(3, [1, 2, 3], 2).points),
+        (["isolines", "--field", "x", "--at", "0.1,0.3"], "isolines",
+         lambda: np.vstack([np.column_stack([np.full(len(line.points), k), np.full(len(line.points), line.value),
+                                             line.points])
+                            for k, line in enumerate(surface.isolines(surface.points[:, 0], [0.1, 0.3]))])),
         (["logmap", "--source", "3"], "logmap", lambda: surface.log_map(3).coordinates),
         (["smooth", "--time-step", "3"], "positions", lambda: surface.smooth(time_step=3)),
         (["smooth", "--method", "taubin", "--field", "x"], "smoothed",

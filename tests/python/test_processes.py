@@ -31,6 +31,7 @@ METHODS = {
     "weights": lambda cloud: cloud.weights([0, 7]),
     "extend": lambda cloud: cloud.extend([0, 7], [1.0, 2.0]),
     "transport": lambda cloud: cloud.transport(0, [1, 2, 3]),
+    "trace": lambda cloud: cloud.trace(0, [1, 2, 3], 2).points,
     "log_map": lambda cloud: cloud.log_map(0).coordinates,
     "deform": lambda cloud: cloud.deform([0, 7], [[2, 0, 0], [0, 2, 0]], method="linear").points,
     "segments": lambda cloud: cloud.segments(3, method="spectral").labels,

@@ -32,6 +32,8 @@ METHODS = {
     "distance": lambda s: s.distance(0),
     "heat": lambda s: s.distance(0, method="heat"),
     "path": lambda s: s.path(0, 1).points,
+    "trace": lambda s: s.trace(0, [1, 2, 3], 1).points,
+    "isolines": lambda s: np.array([line.length for line in s.isolines(s.points[:, 0], s.points[:, 0].mean())]),
     "log_map": lambda s: s.log_map(0).coordinates,
     "extend": lambda s: s.extend(0, 1.0),
     "transport": lambda s: s.transport(0, [1, 2, 3]),

@@ -53,6 +53,38 @@ def test_paths_run_along_great_circles(cloud):
         cloud.path(0, [1, 2])
 
 
+def test_traced_lines_run_along_great_circles(cloud):
+    start, direction = CLOUD[0], np.cross(CLOUD[0], [1, 0, 0])
+    direction /= np.linalg.norm(direction)
+    line = cloud.trace(0, 3 * direction, 1.5)
+    end = np.cos(1.5) * start + np.sin(1.5) * direction
+    assert np.linalg.norm(line.points[-1] - end) < 0.5 * np.sqrt(4 * np.pi / 3000)
+    assert np.linalg.norm(line.direction - (np.cos(1.5) * direction - np.sin(1.5) * start)) < 0.1
+    assert line.length == 1.5 and line.ended_by == "length"
+    np.testing.assert_allclose(line.barycentric @ cloud.positions[line.corners], line.points[-1], atol=1e-12)
+    map = cloud.log_map(0)
+    back = cloud.trace(0, map.coordinates[7] @ map.axes, np.linalg.norm(map.coordinates[7]))
+    assert np.linalg.norm(back.points[-1] - CLOUD[7]) < 0.5 * np.sqrt(4 * np.pi / 3000)
+
+
+def test_lines_start_inside_triangles_and_end_at_rims():
+    square = tufted.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]], [[0, 1, 2], [0, 2, 3]])
+    line = square.trace(0, [0, 1, 5], 9, barycentric=[0, 1, 1])
+    np.testing.assert_array_equal(line.points, [[1, 0.5, 0], [1, 1, 0]])
+    assert line.ended_by == "rim" and line.length == 0.5
+
+
+def test_isolines_are_plane_sections(mesh):
+    lines = mesh.isolines(mesh.points[:, 2], [-9, 0.1, 0.2])
+    assert {line.value for line in lines} == {0.1, 0.2}
+    for line in lines:
+        assert line.closed
+        np.testing.assert_allclose(line.points[:, 2], line.value, atol=1e-12)
+        closed = np.vstack([line.points, line.points[:1]])
+        assert line.length == pytest.approx(np.linalg.norm(np.diff(closed, axis=0), axis=1).sum(), rel=1e-12)
+    assert mesh.isolines(np.full(len(mesh), np.nan), 0) == []
+
+
 def test_the_nearest_source_is_the_one_that_the_distance_is_from(cloud):
     sources = [0, 150, 299]
     distance, source = cloud.nearest_source(sources)

@@ -23,6 +23,8 @@ void addHks(CLI::App& app, Run& run);
 void addEmbed(CLI::App& app, Run& run);
 void addFilter(CLI::App& app, Run& run);
 void addDistance(CLI::App& app, Run& run);
+void addTrace(CLI::App& app, Run& run);
+void addIsolines(CLI::App& app, Run& run);
 void addSignedDistance(CLI::App& app, Run& run);
 void addPath(CLI::App& app, Run& run);
 void addInterpolate(CLI::App& app, Run& run);

@@ -89,18 +89,7 @@ void checkMethod(const Settings& settings) {
 void check(Settings& settings, const Operator& source) {
   checkMethod(settings);
   settings.places = settings.points.places(source.points());
-  if (!settings.faces.empty() && !source.geometry.is_mesh)
-    throw tufted::InvalidInput("--face applies to meshes, and " + source.name +
-                               (source.geometry.points.rows() > 0 ? " is a cloud" : " has no points"));
-  for (const std::string& text : settings.faces) {
-    const std::vector<double> numbers = parseNumbers(text, "--face");
-    const bool valid = numbers.size() == 4 && numbers[0] == std::floor(numbers[0]) && std::abs(numbers[0]) < 2e9;
-    if (!valid) throw tufted::InvalidInput("--face " + text + " is not FACE,A,B,C");
-    settings.inside.push_back(forOption("--face " + text, [&] {
-      return tufted::SurfacePoint::inFace(source.geometry.points, source.geometry.triangles,
-                                          static_cast<int>(numbers[0]), {numbers[1], numbers[2], numbers[3]});
-    }));
-  }
+  settings.inside = pointsInFaces(settings.faces, source);
   if (settings.places.empty() && settings.inside.empty())
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");
   if (settings.matrix)
@@ -227,12 +216,7 @@ void addDistance(CLI::App& app, Run& run) {
       addOperatorCommand<Settings>(app, run, "distance", description, footer, compute, check);
   settings->source.needs_cover = true;
   addPointOptions(*command, settings->points, "Sources");
-  command
-      ->add_option(
-          "--face", settings->faces,
-          "Source in triangle FACE, counted from 0, with barycentric coordinates A,B,C; may be repeated; meshes only")
-      ->allow_extra_args(false)
-      ->type_name("FACE,A,B,C");
+  addFaceOption(*command, settings->faces, "Source");
   addChoice(*command, "--method", settings->options.method, methods,
             "marching: more accurate; heat: smooth where fronts meet (marching)");
   addNumber(*command, "--split", settings->options.split, 0, 2,

@@ -14,6 +14,12 @@ tufted::Triangles trianglesOf(const Operator& source) {
   return source.geometry.triangles;
 }
 
+tufted::Triangles joinedTriangles(const Operator& source) {
+  tufted::Triangles triangles = trianglesOf(source);
+  for (int& corner : triangles.reshaped()) corner = source.laplacian.representative[corner];
+  return triangles;
+}
+
 void checkHasPoints(const Operator& source) {
   if (source.geometry.points.rows() == 0 && source.points() > 0)
     throw tufted::IoError(source.name + ": has no points, which are to be moved");

@@ -10,6 +10,9 @@
 /// @throws IoError for a folder of a mesh without its triangles
 tufted::Triangles trianglesOf(const Operator& source);
 
+/// trianglesOf() with coincident points replaced by their representatives.
+tufted::Triangles joinedTriangles(const Operator& source);
+
 /// Runs `work`, whose arguments were checked, so that InvalidInput is due to the surface.
 /// @throws IoError instead of InvalidInput
 template <class Work>

@@ -92,7 +92,7 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
                      {"structure", nameOf(settings.build.structure)},
                      {"denoised", built.denoised},
                      {"noise", built.noise}};
-  tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress};
+  tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress, .lines = results.lines};
   // Paths need not be UTF-8.
   options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   if (source.geometry.points.rows() == 0 && source.points() > 0) options.copies.clear();

@@ -147,6 +147,33 @@ std::vector<Place> NamedPoints::places(int points) const {
   return found;
 }
 
+std::vector<tufted::SurfacePoint> pointsInFaces(const std::vector<std::string>& faces, const Operator& source) {
+  if (!faces.empty() && !source.geometry.is_mesh)
+    throw tufted::InvalidInput("--face applies to meshes, and " + source.name +
+                               (source.geometry.points.rows() > 0 ? " is a cloud" : " has no points"));
+  std::vector<tufted::SurfacePoint> points;
+  for (const std::string& text : faces) {
+    const std::vector<double> numbers = parseNumbers(text, "--face");
+    const bool valid = numbers.size() == 4 && numbers[0] == std::floor(numbers[0]) && std::abs(numbers[0]) < 2e9;
+    if (!valid) throw tufted::InvalidInput("--face " + text + " is not FACE,A,B,C");
+    points.push_back(forOption("--face " + text, [&] {
+      return tufted::SurfacePoint::inFace(source.geometry.points, source.geometry.triangles,
+                                          static_cast<int>(numbers[0]), {numbers[1], numbers[2], numbers[3]});
+    }));
+  }
+  return points;
+}
+
+void addFaceOption(CLI::App& command, std::vector<std::string>& faces, const std::string& what) {
+  command
+      .add_option("--face", faces,
+                  what +
+                      " in triangle FACE, counted from 0, with barycentric coordinates A,B,C; may be repeated; "
+                      "meshes only")
+      ->allow_extra_args(false)
+      ->type_name("FACE,A,B,C");
+}
+
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what) {
   command.add_option("--source", points.indices, what + ": indices, counted from 0")
       ->allow_extra_args(false)  // the next word may be FILE

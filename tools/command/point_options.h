@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "operator.h"
+#include "tufted/distance.h"
 
 /// Parses numbers separated by commas. @throws InvalidInput naming the option
 std::vector<double> parseNumbers(const std::string& text, const std::string& option);
@@ -56,6 +57,13 @@ struct NamedPoints {
   /// Parses all of them, those by index first. @throws as placeOf() and readRows()
   std::vector<Place> places(int points) const;
 };
+
+/// The points that --face names.
+/// @throws InvalidInput for a cloud, or for what is not FACE,A,B,C with a triangle and barycentric coordinates
+std::vector<tufted::SurfacePoint> pointsInFaces(const std::vector<std::string>& faces, const Operator& source);
+
+/// Adds --face FACE,A,B,C, which may be repeated.
+void addFaceOption(CLI::App& command, std::vector<std::string>& faces, const std::string& what);
 
 /// Adds --source I,J,... and --near X,Y,Z, which may be repeated, and --sources TEXT.
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what);

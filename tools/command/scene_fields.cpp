@@ -34,7 +34,7 @@ Eigen::MatrixXd unpacked(const tufted::Field& field, Eigen::Index rows) {
 
 bool isShown(const std::string& name) {
   return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "component_edges", "M",
-                         "status", "representative", "components", "path"});
+                         "status", "representative", "components", "path", "isolines"});
 }
 
 FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {

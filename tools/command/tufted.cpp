@@ -57,8 +57,9 @@ struct Purpose {
 const Purpose purposes[] = {
     {"Look at files", {addInfo, addView, addValidate}},
     {"Matrices", {addLaplacian, addOperators}},
-    {"Distances and directions along the surface", {addDistance, addPath, addSignedDistance, addLogmap, addTransport}},
-    {"Values on the surface", {addInterpolate, addExtend, addWeights, addPoisson, addGreen}},
+    {"Distances and directions along the surface",
+     {addDistance, addPath, addTrace, addSignedDistance, addLogmap, addTransport}},
+    {"Values on the surface", {addIsolines, addInterpolate, addExtend, addWeights, addPoisson, addGreen}},
     {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter}},
     {"Shape", {addNormals, addCurvature, addSegment, addParameterize}},
     {"Moving the points", {addDenoise, addSmooth, addMinimal, addDeform}}};

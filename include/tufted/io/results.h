@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tufted/io/read.h"
 #include "tufted/io/write.h"
 #include "tufted/laplacian.h"
+#include "tufted/polyline.h"
 #include "tufted/spectrum.h"
 
 namespace tufted {
@@ -25,6 +27,7 @@ struct ResultOptions {
   std::vector<Format> copies = {Format::ply};  ///< copies of the points with the results as fields: ply, pcd, las
   std::string report = "{}\n";                 ///< content of report.json, a JSON object
   Progress progress = {};                      ///< called between files; returning false leaves no file
+  std::optional<std::vector<Polyline>> lines = {};  ///< lines on the surface, written as lines.ply and lines.obj
 };
 
 /// Names of the files that writeResults() writes.
@@ -34,6 +37,8 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 ///   NAME.npy               float64, or int32; one column: N values, else rows x columns in C order
 ///   points.ply, points.pcd, points.las as writeLaplacian writes them, with each array per point as a field NAME of
 ///                          float32; several columns: NAME_0, NAME_1, ... in PLY and LAS, COUNT values in PCD
+///   lines.ply              with options.lines: their points with `value` (float64) and edges between them
+///   lines.obj              with options.lines: an element `l` for each line, of a closed one with its first point again
 ///   report.json            options.report, and as `files` the names of all files of this result
 /// @param laplacian from which the results were computed; empty, as `Laplacian()`, if there is none: the copies then
 /// have no mass, boundary, status and representative

@@ -10,15 +10,15 @@ from ._clouds import Mesh, PointCloud, denoise, load, read
 from ._drop_in import (MeshHeatMethodDistanceSolver, MeshVectorHeatSolver, PointCloudHeatSolver, compute_distance,
                        compute_distance_multisource, mesh_laplacian, point_cloud_laplacian, read_mesh,
                        read_point_cloud)
-from ._results import (Curvature, Deformation, Denoised, Gradients, LogMap, MinimalSurface, Parameterization, Path, Segments,
-                       Spectrum)
+from ._results import (Curvature, Deformation, Denoised, Gradients, Isoline, LogMap, MinimalSurface, Parameterization,
+                       Path, Segments, Spectrum, Trace)
 from ._surface import Surface, TuftedWarning
 from ._tufted import Cancelled, FileTooLarge, InvalidInput, IoError, SolverFailure
 from ._tufted import version as __version__
 
 __all__ = [
-    "Cancelled", "Curvature", "Deformation", "Denoised", "FileTooLarge", "Gradients", "InvalidInput", "IoError", "LogMap", "Mesh",
+    "Cancelled", "Curvature", "Deformation", "Denoised", "FileTooLarge", "Gradients", "InvalidInput", "IoError", "Isoline", "LogMap", "Mesh",
     "MeshHeatMethodDistanceSolver", "MeshVectorHeatSolver", "MinimalSurface", "Parameterization", "Path", "PointCloud",
-    "PointCloudHeatSolver", "Segments", "SolverFailure", "Spectrum", "Surface", "TuftedWarning", "compute_distance", "compute_distance_multisource", "denoise", "load",
+    "PointCloudHeatSolver", "Segments", "SolverFailure", "Spectrum", "Surface", "Trace", "TuftedWarning", "compute_distance", "compute_distance_multisource", "denoise", "load",
     "mesh_laplacian", "point_cloud_laplacian", "read", "read_mesh", "read_point_cloud",
 ]

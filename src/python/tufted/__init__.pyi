@@ -72,6 +72,22 @@ class Path(NamedTuple):
     length: float
 
 
+class Trace(NamedTuple):
+    points: _Floats
+    length: float
+    ended_by: str
+    direction: _Floats
+    corners: _Integers
+    barycentric: _Floats
+
+
+class Isoline(NamedTuple):
+    points: _Floats
+    value: float
+    length: float
+    closed: bool
+
+
 class LogMap(NamedTuple):
     coordinates: _Floats
     axes: _Floats
@@ -124,6 +140,9 @@ class Surface:
     def points_within(self, sources: npt.ArrayLike, radius: float, *, split: int | None = None,
                       progress: _Progress = None) -> tuple[npt.NDArray[np.int32], _Floats]: ...
     def path(self, start: int, end: int, *, progress: _Progress = None) -> Path: ...
+    def trace(self, source: int, direction: npt.ArrayLike, length: float, *, barycentric: npt.ArrayLike | None = None,
+              progress: _Progress = None) -> Trace: ...
+    def isolines(self, field: npt.ArrayLike, values: npt.ArrayLike, *, progress: _Progress = None) -> list[Isoline]: ...
     def extend(self, sources: npt.ArrayLike, values: npt.ArrayLike, *, time_step: float = 4.0,
                progress: _Progress = None) -> _Floats: ...
     def transport(self, sources: npt.ArrayLike, vectors: npt.ArrayLike, *, time_step: float = 4.0,

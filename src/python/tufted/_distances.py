@@ -3,7 +3,7 @@ import numpy as np
 
 from . import _arguments as check
 from . import _tufted
-from ._results import LogMap, Path
+from ._results import Isoline, LogMap, Path, Trace
 from ._tufted import InvalidInput
 
 
@@ -68,6 +68,47 @@ class Distances:
         solver = self._keep("path", lambda: _tufted.PathSolver(
             self._laplacian, self._solver(), check.callback("path", progress)))
         return Path(*solver.path(int(ends[0][0]), int(ends[1][0]), check.callback("path", progress)))
+
+    def trace(self, source, direction, length, *, barycentric=None, progress=None):
+        """Follows a straight line over the triangles of a mesh, or those of triangles(): the exponential map.
+
+        source: index of a point or, with barycentric (3 coordinates by corner, >= 0), of a triangle of a mesh.
+        direction: 3 values, of any length, projected into the tangent plane of the point or the plane of the triangle.
+        length: >= 0. A vertex that the line meets is left with equal angles on both sides.
+        Returns points (K x 3, from the start over all edges that the line crosses to the end), length, ended_by
+        ("length"; "rim": the surface ends; "branch": more than two triangles meet; "crossings": after a million),
+        direction (3, at the end), corners and barycentric (3 each, the place of the end).
+        """
+        direction = check.vector_of_three("trace", "direction", direction)
+        length = check.number("trace", "length", length)
+        tracer = self._keep("trace", lambda: _tufted.GeodesicTracer(
+            self._laplacian.positions, self._joined_faces("trace"), *self._frame_parts()))
+        if barycentric is not None and self._faces is None:
+            raise InvalidInput("trace: barycentric is given, must be None for a cloud")
+        with check.named("trace", start="source", sources="source", faces="source"):
+            places = self._places("trace", *((source, None) if barycentric is None else ((), source)), barycentric)
+            if len(places) != 1:
+                raise InvalidInput(f"trace: source has {len(places)} indices, must be one")
+            points, length, ended_by, *end = tracer.query(places[0], direction, length,
+                                                          check.callback("trace", progress))
+        return Trace(points, length, ended_by, *map(np.array, end))
+
+    def isolines(self, field, values, *, progress=None):
+        """Finds the lines on which a field, linear within the triangles of a mesh or those of triangles(), has some
+        values.
+
+        field: N values; NaN and infinite values end lines. values: a value or several.
+        Returns a list, in the order of `values`: of each line points (K x 3, in order; a closed line does not repeat
+        its first point), value, length, closed. Larger values lie to the left, seen from the front of the triangles.
+        Lines end where the surface ends and where more than two triangles meet; on a closed surface all are closed.
+        """
+        field, _ = check.columns("isolines", "field", field, len(self))
+        values, _ = check.columns("isolines", "values", np.atleast_1d(values), np.size(values))
+        if field.shape[1] != 1:
+            raise InvalidInput(f"isolines: field has {field.shape[1]} columns, must have one")
+        found = _tufted.isolines(self._laplacian.positions, self._joined_faces("isolines"), field[:, 0],
+                                 values[:, 0], check.callback("isolines", progress))
+        return [Isoline(*line) for line in found]
 
     def extend(self, sources, values, *, time_step=4.0, progress=None):
         """Extends values from some points to all: nearly those of the nearest source.
@@ -137,6 +178,10 @@ class Distances:
             self._laplacian, *self._signed_frames(), time_step, self._solver(), progress), time_step)
         return solver.query(where, progress)
 
+    def _joined_faces(self, function):
+        """_surface_faces() with coincident points replaced by their representatives."""
+        return self.representative[self._surface_faces(function)]
+
     def _places(self, function, sources, faces, barycentric):
         where = check.indices(function, "sources", sources, len(self), empty=faces is not None)
         inside, coordinates = np.zeros(0, np.int32), np.zeros((0, 3))
@@ -146,8 +191,8 @@ class Distances:
             inside = check.indices(function, "faces", faces, len(self._faces))
             coordinates = check.rows_of_three(function, "barycentric",
                                               np.atleast_2d(() if barycentric is None else barycentric), inside.size)
-        corners = self._faces if self._faces is not None else np.zeros((0, 3), np.int32)
-        return _tufted.surface_points(where, self._points, corners, inside, coordinates)
+        corners = self.representative[self._faces] if inside.size else np.zeros((0, 3), np.int32)
+        return _tufted.surface_points(self.representative[where], self._points, corners, inside, coordinates)
 
     def _distance_solver(self, method, split, maximum, time_step, unit, open_boundary, progress):
         self._need_cover("distance")

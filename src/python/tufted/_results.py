@@ -78,6 +78,24 @@ class Path(NamedTuple):
     length: float
 
 
+class Trace(NamedTuple):
+    """A straight line on the surface, see Surface.trace()."""
+    points: np.ndarray
+    length: float
+    ended_by: str
+    direction: np.ndarray
+    corners: np.ndarray
+    barycentric: np.ndarray
+
+
+class Isoline(NamedTuple):
+    """A line on which a field has one value, see Surface.isolines()."""
+    points: np.ndarray
+    value: float
+    length: float
+    closed: bool
+
+
 class LogMap(NamedTuple):
     """Coordinates around a point, see Surface.log_map()."""
     coordinates: np.ndarray
