@@ -88,7 +88,7 @@ void checkMethod(const Settings& settings) {
 
 void check(Settings& settings, const Operator& source) {
   checkMethod(settings);
-  settings.places = settings.points.places(source.points());
+  settings.places = settings.points.places(source);
   if (!settings.faces.empty() && !source.geometry.is_mesh)
     throw tufted::InvalidInput("--face applies to meshes, and " + source.name +
                                (source.geometry.points.rows() > 0 ? " is a cloud" : " has no points"));

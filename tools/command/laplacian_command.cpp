@@ -150,7 +150,7 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
   Summary summary;
   summary.add("file", "%s (%s)", settings.input.name().c_str(), geometry.is_mesh ? "mesh" : "cloud");
   if (geometry.polygons > 0) summary.add("polygons", "%lld cut into triangles", count(geometry.polygons));
-  addMerged(geometry, summary);
+  addMerged(geometry, settings.input, summary);
   summary.add("points", "%s", pointsText(report).c_str());
   if (report.rim_points + report.jump_points + report.lost_points > 0)
     summary.add("boundary", "%lld points on rims, %lld at depth jumps, %lld where triangles are missing",
@@ -189,6 +189,9 @@ int runLaplacian(Settings& settings) {
   const tufted::Laplacian laplacian = buildLaplacian(geometry, settings.input, settings.build, keep_cover, progress);
   bar.setPoints(0);
   write.source = settings.input.name();
+  if (settings.input.chosen.of > 0)
+    write.selection =
+        settings.input.chosen.json().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   write.progress = progress;
   if (geometry.is_mesh)
     write.mesh = &settings.build.mesh;

@@ -34,6 +34,7 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 ///   NAME.npy               float64, or int32; one column: N values, else rows x columns in C order
 ///   points.ply, points.pcd as writeLaplacian writes them, with each array per point as a field NAME of float32;
 ///                          several columns: NAME_0, NAME_1, ... in PLY, COUNT values in PCD
+///   file_row.npy           int32, the field of select(), if the points have it
 ///   report.json            options.report, and as `files` the names of all files of this result
 /// @param laplacian from which the results were computed; empty, as `Laplacian()`, if there is none: the copies then
 /// have no mass, boundary, status and representative
