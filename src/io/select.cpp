@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "io/columns.h"
-#include "io/in_polygon.h"
 #include "io/number.h"
 #include "io/where.h"
 #include "tufted/errors.h"
@@ -38,19 +37,28 @@ void require(Mask& kept, const Condition& condition) {
     if (kept[i] != 0 && !condition(i)) kept[i] = 0;
 }
 
+/// Whether a point lies in a polygon, by the rule of Selection::polygon.
+bool isInside(const std::vector<Eigen::Vector2d>& corners, const Eigen::RowVector3d& point) {
+  bool is_inside = false;
+  const Eigen::Vector2d* last = &corners.back();
+  for (const Eigen::Vector2d& corner : corners) {
+    const bool is_upward = last->y() < corner.y();
+    const Eigen::Vector2d &low = is_upward ? *last : corner, &high = is_upward ? corner : *last;
+    last = &corner;
+    if (point.y() >= low.y() && point.y() < high.y() &&
+        (high.x() - low.x()) * (point.y() - low.y()) > (high.y() - low.y()) * (point.x() - low.x()))
+      is_inside = !is_inside;
+  }
+  return is_inside;
+}
+
 std::vector<int> rowsOf(const Geometry& geometry, const Selection& selection) {
   const Points& points = geometry.points;
   Mask kept(static_cast<std::size_t>(points.rows()), 1);
   for (const std::string& comparison : selection.where) require(kept, io::where(geometry, comparison));
   if (selection.crop) require(kept, [&](std::size_t i) { return selection.crop->contains(points.row(i).transpose()); });
-  if (!selection.polygon.empty()) {
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector2d& corner : selection.polygon) box.extend(corner);
-    require(kept, [&](std::size_t i) {
-      const Eigen::Vector2d point = points.row(i).head<2>();
-      return box.contains(point) && io::isInside(selection.polygon, point);
-    });
-  }
+  if (!selection.polygon.empty())
+    require(kept, [&](std::size_t i) { return isInside(selection.polygon, points.row(i)); });
   std::vector<int> rows;
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i] != 0) rows.push_back(static_cast<int>(i));

@@ -42,12 +42,19 @@ struct NamedValues {
   }
 };
 
-enum class Relation { equal, unequal, less, at_most, greater, at_least };
-
-/// Of two that begin alike the longer one stands first.
-constexpr std::pair<std::string_view, Relation> spellings[] = {
-    {"==", Relation::equal}, {"=", Relation::equal},     {"!=", Relation::unequal}, {"<=", Relation::at_most},
-    {"<", Relation::less},   {">=", Relation::at_least}, {">", Relation::greater}};
+/// What a value may be to a range. All are false if one of the numbers is NaN.
+struct Relation {
+  std::string_view text;  ///< of two that begin alike the longer one stands first
+  bool (*holds)(double value, double low, double high);
+};
+constexpr Relation relations[] = {
+    {"==", [](double value, double low, double high) { return value >= low && value <= high; }},
+    {"=", [](double value, double low, double high) { return value >= low && value <= high; }},
+    {"!=", [](double value, double low, double high) { return value < low || value > high; }},
+    {"<=", [](double value, double low, double) { return value <= low; }},
+    {"<", [](double value, double low, double) { return value < low; }},
+    {">=", [](double value, double low, double) { return value >= low; }},
+    {">", [](double value, double low, double) { return value > low; }}};
 
 /// The right side of a comparison: the values of a field, or a range, which for a number has one value.
 struct Operand {
@@ -55,32 +62,12 @@ struct Operand {
   bool is_range = false;
 };
 
-/// Whether a value has a relation to a range. False if one of the numbers is NaN.
-bool holds(Relation relation, double value, double low, double high) {
-  switch (relation) {
-    case Relation::equal:
-      return value >= low && value <= high;
-    case Relation::unequal:
-      return value < low || value > high;
-    case Relation::less:
-      return value < low;
-    case Relation::at_most:
-      return value <= low;
-    case Relation::greater:
-      return value > low;
-    case Relation::at_least:
-      break;
-  }
-  return value >= low;
-}
-
 /// Parses a comparison from left to right.
 class Comparison {
  public:
-  Comparison(const Geometry& geometry, const std::string& text) : named_(geometry), text_(text) {
-    left_ = fieldNamed(word());
-    relation_ = takeRelation();
-    const bool takes_lists = relation_ == Relation::equal || relation_ == Relation::unequal;
+  Comparison(const Geometry& geometry, const std::string& text)
+      : named_(geometry), text_(text), left_(fieldNamed(word())), relation_(takeRelation()) {
+    const bool takes_lists = relation_.text[0] == '=' || relation_.text[0] == '!';
     do {
       right_.push_back(operand());
       if (right_.back().is_range && !takes_lists) fail("a range follows only = and !=");
@@ -91,10 +78,10 @@ class Comparison {
   /// Whether a point equals one of a list or differs from all of it, or has another relation to the right side.
   bool holdsAt(std::size_t point) const {
     const auto held = [&, value = left_(point)](const Operand& right) {
-      return holds(relation_, value, right.low(point), right.high(point));
+      return relation_.holds(value, right.low(point), right.high(point));
     };
-    return relation_ == Relation::unequal ? std::all_of(right_.begin(), right_.end(), held)
-                                          : std::any_of(right_.begin(), right_.end(), held);
+    return relation_.text == "!=" ? std::all_of(right_.begin(), right_.end(), held)
+                                  : std::any_of(right_.begin(), right_.end(), held);
   }
 
  private:
@@ -122,8 +109,8 @@ class Comparison {
   }
 
   Relation takeRelation() {
-    for (const auto& [spelling, relation] : spellings)
-      if (take(spelling)) return relation;
+    for (const Relation& relation : relations)
+      if (take(relation.text)) return relation;
     fail("expected =, !=, <, <=, > or >= after the field");
   }
 
@@ -156,7 +143,7 @@ class Comparison {
   const std::string& text_;
   std::size_t at_ = 0;
   std::function<double(std::size_t)> left_;
-  Relation relation_ = Relation::equal;
+  Relation relation_;
   std::vector<Operand> right_;
 };
 

@@ -23,9 +23,10 @@ struct Selection {
   /// Box in the unit of the file; points on its sides are kept. Corners may be infinite.
   std::optional<Eigen::AlignedBox3d> crop = {};
   /// Corners of a polygon in x and y, in the unit of the file; the last one is joined to the first. Empty: no polygon.
-  /// A point is kept if it lies on an edge, or if a ray from it crosses the edges an odd number of times, so the
-  /// overlap of a polygon that crosses itself is outside. Both are decided exactly, unless products of coordinates
-  /// underflow.
+  /// A point is inside if a ray from it towards larger x crosses the edges an odd number of times (even-odd rule, so
+  /// the overlap of a polygon that crosses itself is outside). A ray crosses an edge if it passes the lower end or
+  /// above it, but below the upper end, with the edge to the right of the point. So points on left and lower sides are
+  /// inside, those on right and upper sides outside, and of two polygons with a common edge just one has a point on it.
   std::vector<Eigen::Vector2d> polygon = {};
   double thin = 0;  ///< spacing of thinPoints(), which thins what the other conditions keep; 0: no thinning
 
