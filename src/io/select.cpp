@@ -26,8 +26,6 @@ void check(const Geometry& geometry, const Selection& selection) {
     if (!(corner.cwiseAbs().maxCoeff() <= farthest))
       throw InvalidInput("select: polygon has a coordinate " + io::shortestText(corner.cwiseAbs().maxCoeff()) +
                          ", must be at most 1e150");
-  if (!(selection.thin >= 0 && std::isfinite(selection.thin)))
-    throw InvalidInput("select: thin = " + io::shortestText(selection.thin) + ", must be >= 0 and finite");
 }
 
 /// Clears the entries of points that do not satisfy the condition.

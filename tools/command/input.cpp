@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <limits>
 #include <system_error>
 
 #include "options.h"
@@ -30,8 +29,7 @@ void addSelection(CLI::App& command, ChosenPoints& chosen) {
           "Keep points in a polygon in x and y, edges included: text file of its corners, lines X Y; clouds only")
       ->check(notEmpty)
       ->type_name("TEXT");
-  addNumber(command, "--thin", chosen.selection.thin, std::numeric_limits<double>::min(),
-            std::numeric_limits<double>::max(),
+  addNumber(command, "--thin", chosen.selection.thin, 1e-150, 1e150,
             "Then keep points of which no two are closer than this, in the unit of FILE; clouds only")
       ->type_name("SPACING");
 }

@@ -44,15 +44,15 @@ inline constexpr const char* file_row = "file_row";
 /// and normal NaN.
 /// @return indices of the kept points in the cloud as it was, ascending
 /// @throws InvalidInput for a mesh, a comparison that cannot be parsed or names no field, a box whose lower corner is
-/// not below the upper one, a polygon of one or two corners or of coordinates beyond 1e150, a spacing that is not a
-/// finite number >= 0, or if none of the points is kept
+/// not below the upper one, a polygon of one or two corners or of coordinates beyond 1e150, a spacing that
+/// thinPoints() refuses, or if none of the points is kept
 std::vector<int> select(Geometry& geometry, const Selection& selection);
 
 /// Thins points to a Poisson disk sample: no two of the chosen points are closer than `spacing`, and every other point
 /// is closer than that to a chosen one. Points are visited in an order that depends on their coordinates alone, and
 /// each is chosen unless an earlier one is too close. So the same positions are chosen in whatever order the points are
 /// given. Takes O(N) memory and one thread.
-/// @param spacing in the unit of the points, > 0 and finite
+/// @param spacing in the unit of the points, in [1e-150, 1e150]
 /// @return indices of the chosen points, ascending; of equal points the first, and none that is not finite
 /// @throws InvalidInput for another spacing
 std::vector<int> thinPoints(const Points& points, double spacing);
