@@ -24,9 +24,8 @@ void addSelection(CLI::App& command, ChosenPoints& chosen) {
   command.add_option("--crop", chosen.crop, "Keep points in this box, sides included; clouds only")
       ->type_name("X0,Y0,Z0,X1,Y1,Z1");
   command
-      .add_option(
-          "--polygon", chosen.polygon,
-          "Keep points in a polygon in x and y, edges included: text file of its corners, lines X Y; clouds only")
+      .add_option("--polygon", chosen.polygon,
+                  "Keep points in a polygon in x and y: text file of its corners, lines X Y; clouds only")
       ->check(notEmpty)
       ->type_name("TEXT");
   addNumber(command, "--thin", chosen.selection.thin, 1e-150, 1e150,

@@ -30,6 +30,7 @@ struct Selection {
   std::vector<Eigen::Vector2d> polygon = {};
   double thin = 0;  ///< spacing of thinPoints(), which thins what the other conditions keep; 0: no thinning
 
+  /// Whether all points are kept.
   bool isEmpty() const { return where.empty() && !crop && polygon.empty() && thin == 0; }
 };
 
@@ -43,8 +44,8 @@ inline constexpr const char* file_row = "file_row";
 /// An organized cloud keeps its grid and gets no such field: a dropped pixel becomes a missing one, with coordinates
 /// and normal NaN.
 /// @return indices of the kept points in the cloud as it was, ascending
-/// @throws InvalidInput for a mesh, a comparison that cannot be parsed or names no field, a box whose lower corner is
-/// not below the upper one, a polygon of one or two corners or of coordinates beyond 1e150, a spacing that
+/// @throws InvalidInput for a mesh, a comparison that cannot be parsed or names no field, a box whose lower corner
+/// exceeds the upper one, a polygon of one or two corners or of coordinates beyond 1e150, a spacing that
 /// thinPoints() refuses, or if none of the points is kept
 std::vector<int> select(Geometry& geometry, const Selection& selection);
 
