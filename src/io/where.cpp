@@ -118,7 +118,8 @@ class Comparison {
   std::string word() {
     const std::string_view all = rest();
     const std::string found(all.substr(0, all.find_first_of(" \t=!<>,")));
-    if (found.empty()) fail("a field or a number is missing at '" + std::string(all) + "'");
+    if (found.empty())
+      fail("a field or a number is missing before " + (all.empty() ? "the end" : "'" + std::string(all) + "'"));
     at_ += found.size();
     return found;
   }
