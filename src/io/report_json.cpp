@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/frames_file.h"
+#include "io/stage_results.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
 
@@ -91,9 +92,9 @@ Json optionsObject(const CloudOptions& options) {
   return json;
 }
 
-Json givenOptions(const std::string& text) {
+Json givenObject(const std::string& name, const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) throw InvalidInput("writeLaplacian: build_options is no JSON object");
+  if (!json.is_object()) throw InvalidInput("writeLaplacian: " + name + " is no JSON object");
   return json;
 }
 
@@ -115,6 +116,7 @@ std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry,
                            const std::vector<Convention>& conventions) {
   Json json = {{"tufted", TUFTED_VERSION}};
   if (!options.source.empty()) json["source"] = options.source;
+  if (!options.selection.empty()) json["selection"] = givenObject("selection", options.selection);
   json["kind"] = laplacian.kind == Kind::cloud ? "cloud" : "mesh";
   if (laplacian.frames.normals.rows() > 0)
     json["orientation"] = orientation_names.at(static_cast<std::size_t>(laplacian.frames.orientation));
@@ -125,9 +127,11 @@ std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry,
     json["mesh_options"]["weld"] = options.mesh->weld;
   }
   if (!options.cloud && !options.mesh && !options.build_options.empty())
-    json[laplacian.kind == Kind::cloud ? "cloud_options" : "mesh_options"] = givenOptions(options.build_options);
+    json[laplacian.kind == Kind::cloud ? "cloud_options" : "mesh_options"] =
+        givenObject("build_options", options.build_options);
   json["write_options"] = {{"sign", name(options.sign)}, {"dummy", options.dummy}};
   json["files"] = resultFiles(options.formats);
+  if (fileRowOf(geometry) != nullptr) json["files"].push_back(file_row_name);
   json["conventions"] = conventionsObject(conventions);
   json["checksum"] = checksum(laplacian);
   json["report"] = reportObject(laplacian.report);

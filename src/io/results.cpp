@@ -16,6 +16,7 @@
 #include "io/result_folder.h"
 #include "io/stage_results.h"
 #include "tufted/errors.h"
+#include "tufted/io/select.h"
 
 namespace tufted {
 namespace {
@@ -97,8 +98,24 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
   return names;
 }
 
+const Field* io::fileRowOf(const Geometry& geometry) {
+  for (const Field& field : geometry.fields)
+    if (field.name == file_row && field.type == FieldType::int32 && field.count == 1) return &field;
+  return nullptr;
+}
+
+void io::stageFileRow(StagedFiles& files, const Geometry& geometry) {
+  const Field* const field = fileRowOf(geometry);
+  if (field == nullptr) return;
+  OutputFile file(files.stage(file_row_name));
+  file.write(npyHeader("<i4", {geometry.points.rows()}));
+  file.write(field->bytes.data(), field->bytes.size());
+  file.close();
+}
+
 void io::stageResults(StagedFiles& files, const Laplacian& laplacian, const Geometry& geometry,
                       const std::vector<ResultArray>& arrays, const ResultOptions& options) {
+  stageFileRow(files, geometry);
   const std::size_t steps = options.copies.size() + 1;
   std::size_t done = 0;
   const auto report = [&] {

@@ -11,4 +11,10 @@ namespace tufted::io {
 void stageResults(StagedFiles& files, const Laplacian& laplacian, const Geometry& geometry,
                   const std::vector<ResultArray>& arrays, const ResultOptions& options);
 
+inline constexpr const char* file_row_name = "file_row.npy";
+/// The field that select() adds; nullptr if a geometry has none.
+const Field* fileRowOf(const Geometry& geometry);
+/// Stages file_row.npy if a geometry has that field.
+void stageFileRow(StagedFiles& files, const Geometry& geometry);
+
 }  // namespace tufted::io

@@ -22,6 +22,7 @@
 #include "io/positions_file.h"
 #include "io/report_json.h"
 #include "io/result_folder.h"
+#include "io/stage_results.h"
 #include "io/staged_files.h"
 #include "tufted/components.h"
 #include "tufted/errors.h"
@@ -185,6 +186,7 @@ void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian
   const Results results = {laplacian, geometry, options};
   const std::vector<ResultFile> wanted = filesOf(options.formats);
   io::StagedFiles files(dir);
+  io::stageFileRow(files, geometry);
   for (std::size_t w = 0; w <= wanted.size(); ++w) {
     if (options.progress && !options.progress("write", static_cast<double>(w) / static_cast<double>(wanted.size())))
       throw Cancelled("writeLaplacian: cancelled");

@@ -57,6 +57,8 @@ constexpr std::array functions = {
     Name{"restrictedTo", "restricted_to"},
     Name{"nearestPoints", "nearest"},
     Name{"writeLaplacian", "save"},
+    Name{"select", "read"},
+    Name{"thinPoints", "thin"},
 };
 
 /// Words within the library's messages, and their names in Python.

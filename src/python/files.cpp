@@ -14,6 +14,7 @@
 #include "python/running.h"
 #include "tufted/io/read.h"
 #include "tufted/io/results.h"
+#include "tufted/io/select.h"
 #include "tufted/io/write.h"
 
 namespace py = pybind11;
@@ -42,13 +43,23 @@ py::dict fieldsOf(const Geometry& geometry) {
   return fields;
 }
 
-Geometry readFile(const std::filesystem::path& path, const std::string& kind, bool weld, const py::object& progress) {
+/// @param crop the six numbers of the lower and the upper corner, or none
+Selection selectionOf(const std::vector<std::string>& where, const std::vector<double>& crop,
+                      const std::vector<Eigen::Vector2d>& polygon, double thin) {
+  Selection selection = {.where = where, .polygon = polygon, .thin = thin};
+  if (!crop.empty()) selection.crop.emplace(Eigen::Vector3d(crop.data()), Eigen::Vector3d(crop.data() + 3));
+  return selection;
+}
+
+Geometry readFile(const std::filesystem::path& path, const std::string& kind, bool weld, const Selection& selection,
+                  const py::object& progress) {
   const auto as = chosen<ReadAs>("read: kind", kind,
                                  {{"automatic", ReadAs::automatic}, {"cloud", ReadAs::cloud}, {"mesh", ReadAs::mesh}});
   Geometry geometry =
       run(progress, [&](const Progress& called) { return read(path, as, FileFormat::automatic, called); });
   if (weld && !geometry.is_mesh)
     throw InvalidInput("read: weld = True, must be False for a cloud, whose coincident points are merged in any case");
+  if (!selection.isEmpty()) run(progress, [&](const Progress&) { return select(geometry, selection); });
   const int caller = 2;  // stack level: the line that called the package's function
   for (const std::string& note : geometry.notes)
     if (PyErr_WarnEx(PyExc_UserWarning, note.c_str(), caller) != 0) throw py::error_already_set();
@@ -174,7 +185,12 @@ void addFiles(py::module_& module) {
       .def_readonly("notes", &Geometry::notes)
       .def_property_readonly("fields", &fieldsOf)
       .def(py::pickle(&stateOf, &geometryFrom));
+  py::class_<Selection>(module, "Selection").def(py::init(&selectionOf));
   module.def("read_file", &readFile);
+  module.def("thin", [](const Doubles& points, double spacing) {
+    const auto given = pointsOf(points);
+    return owned(run(py::none(), [&](const Progress&) { return thinPoints(given, spacing); }));
+  });
   module.def("rings_of", &ringsOf);
   module.def("save", &saveTo);
   module.def("load", [](const std::filesystem::path& dir, bool with_cover) {

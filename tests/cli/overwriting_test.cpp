@@ -99,6 +99,7 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       {{"laplacian", "INPUT"}, points},
       {{"denoise", "INPUT"}, points},
       {{"distance", "INPUT", "--source", "0"}, points},
+      {{"distance", cloud_, "--source", "0", "--polygon", "INPUT"}, "-9 -9\n9 -9\n9 9\n-9 9\n"},
       {{"distance", cloud_, "--sources", "INPUT"}, indices},
       {{"green", cloud_, "--sources", "INPUT"}, indices},
       {{"logmap", cloud_, "--sources", "INPUT"}, "3\n"},

@@ -33,6 +33,40 @@ def test_l_and_m(name, tmp_path):
         assert written[key] == surface.report[key], key
 
 
+def test_chosen_points(tmp_path):
+    corners = [(-0.9, -0.9), (0.4, -0.9), (0.3, 0.9), (-0.9, 0.8)]
+    (tmp_path / "outline.txt").write_text("".join(f"{x} {y}\n" for x, y in corners))
+    run("laplacian", DATASETS / "two_sheets.ply", "--where", "label=0", "--where", "x!=-0.05..0", "--crop",
+        "-0.4,-1,-1,1,0.35,1", "--polygon", tmp_path / "outline.txt", "--thin", "0.03", "--out", tmp_path / "out")
+    surface = tufted.read(DATASETS / "two_sheets.ply", where=["label=0", "x!=-0.05..0"],
+                          crop=[-0.4, -1, -1, 1, 0.35, 1], polygon=corners, thin=0.03)
+    assert same(scipy.sparse.load_npz(tmp_path / "out/L.npz"), surface.L)
+    np.testing.assert_array_equal(np.load(tmp_path / "out/file_row.npy"), surface.file_row)
+    whole = tufted.read(DATASETS / "two_sheets.ply")
+    assert whole.file_row is None and 0 < len(surface) < len(whole)
+    np.testing.assert_array_equal(whole.points[surface.file_row], surface.points)
+    surface.save(tmp_path / "saved")
+    np.testing.assert_array_equal(np.load(tmp_path / "saved/file_row.npy"), surface.file_row)
+    np.testing.assert_array_equal(tufted.load(tmp_path / "saved").file_row, surface.file_row)
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(surface)).file_row, surface.file_row)
+
+
+def test_thin_is_what_read_thins():
+    cloud = tufted.read(DATASETS / "sphere_uniform.ply")
+    np.testing.assert_array_equal(tufted.thin(cloud.points, 0.2),
+                                  tufted.read(DATASETS / "sphere_uniform.ply", thin=0.2).file_row)
+
+
+@pytest.mark.parametrize("choice, fault", [
+    ({"where": "lable=0"}, "read: where = 'lable=0': 'lable' is no field"), ({"where": "label=7"}, "none of the"),
+    ({"crop": [0, 1, 2]}, "crop has the shape"), ({"crop": [1, 0, 0, 0, 1, 1]}, "read: the lower corner of crop"),
+    ({"polygon": [(0, 0), (1, 1)]}, "at least 3"), ({"polygon": np.zeros((4, 3))}, "polygon has rows of 3"),
+    ({"thin": -1}, "thin: spacing = -1"), ({"thin": "1"}, "read: thin = '1', must be a number")])
+def test_choices_that_are_refused(choice, fault):
+    with pytest.raises(tufted.InvalidInput, match=fault):
+        tufted.read(DATASETS / "two_sheets.ply", **choice)
+
+
 def test_dummy_values(tmp_path):
     run("laplacian", DATASETS / "unreferenced_vertices.obj", "--out", tmp_path, "--dummy", "--mollify", "1e-5")
     V, F = tufted.read_mesh(DATASETS / "unreferenced_vertices.obj")

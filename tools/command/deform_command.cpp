@@ -64,7 +64,7 @@ void check(Settings& settings, const Operator& source) {
     const Row& row = rows[static_cast<std::size_t>(k)];
     if (row.numbers.size() != 1 && row.numbers.size() != 4)
       throw tufted::IoError(row.name + ": is not INDEX or INDEX X Y Z");
-    const int point = indexOf({row.name, {row.numbers[0]}}, source.points());
+    const int point = indexOf({row.name, {row.numbers[0]}}, source);
     settings.handles.push_back(point);
     if (row.numbers.size() == 4) {
       settings.targets.row(k) << row.numbers[1], row.numbers[2], row.numbers[3];

@@ -87,6 +87,7 @@ int runDenoise(Settings& settings) {
 
   const tufted::DenoiseReport& done = denoised.report;
   nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", "denoise"}, {"source", settings.input.name()}};
+  if (settings.input.chosen.of > 0) json["selection"] = settings.input.chosen.json();
   json["structure"] = nameOf(settings.structure);
   json["report"] = nlohmann::ordered_json::parse(toJson(done));
   const std::vector<tufted::ResultArray> results = {
@@ -103,6 +104,7 @@ int runDenoise(Settings& settings) {
   bar.clear();
 
   Summary summary;
+  addMerged(geometry, settings.input, summary);
   summary.add("points", "%lld, %lld moved, %lld outliers, %lld on no surface", static_cast<long long>(done.points),
               static_cast<long long>(done.moved), static_cast<long long>(done.outliers),
               static_cast<long long>(done.no_surface));

@@ -88,7 +88,7 @@ void checkMethod(const Settings& settings) {
 
 void check(Settings& settings, const Operator& source) {
   checkMethod(settings);
-  settings.places = settings.points.places(source.points());
+  settings.places = settings.points.places(source);
   settings.inside = pointsInFaces(settings.faces, source);
   if (settings.places.empty() && settings.inside.empty())
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");

@@ -43,7 +43,7 @@ struct Settings {
 
 void check(Settings& settings, const Operator& source) {
   checkPositions(source);
-  settings.placed = placePins(settings.pins, source.points());
+  settings.placed = placePins(settings.pins, source);
   settings.source.shown = {{"values", settings.placed.values.cols()}};
 }
 

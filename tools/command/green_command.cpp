@@ -32,7 +32,7 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
-  settings.places = settings.points.places(source.points());
+  settings.places = settings.points.places(source);
   if (settings.places.empty())
     throw tufted::InvalidInput("no point is given, must be at least one by --source, --near or --sources");
   settings.source.shown = {{"green", std::ssize(settings.places)}};

@@ -11,8 +11,77 @@
 #include <system_error>
 
 #include "options.h"
+#include "point_options.h"
 #include "tufted/errors.h"
 #include "tufted/memory.h"
+
+namespace {
+
+/// Adds the options that choose points. inputsOf() finds the file of --polygon by its type.
+void addSelection(CLI::App& command, ChosenPoints& chosen) {
+  command
+      .add_option("--where", chosen.selection.where,
+                  "Keep points whose fields satisfy this, such as 'classification=2,6', 'z=10..20' or "
+                  "'return_number=number_of_returns'; may be repeated, all must hold; clouds only")
+      ->allow_extra_args(false)  // the next word may be FILE
+      ->type_name("CONDITION");
+  command.add_option("--crop", chosen.crop, "Keep points in this box, sides included; clouds only")
+      ->type_name("X0,Y0,Z0,X1,Y1,Z1");
+  command
+      .add_option("--polygon", chosen.polygon,
+                  "Keep points in a polygon in x and y: text file of its corners, lines X Y; clouds only")
+      ->check(notEmpty)
+      ->type_name("TEXT");
+  addNumber(command, "--thin", chosen.selection.thin, 1e-150, 1e150,
+            "Then keep points of which no two are closer than this, in the unit of FILE; clouds only")
+      ->type_name("SPACING");
+}
+
+/// The selection with the values of --crop and --polygon.
+tufted::Selection selectionOf(const ChosenPoints& chosen) {
+  tufted::Selection selection = chosen.selection;
+  if (!chosen.crop.empty()) {
+    const std::vector<double> box = parseNumbers(chosen.crop, "--crop");
+    if (box.size() != 6) throw tufted::InvalidInput("--crop " + chosen.crop + " is not X0,Y0,Z0,X1,Y1,Z1");
+    selection.crop.emplace(Eigen::Vector3d(box[0], box[1], box[2]), Eigen::Vector3d(box[3], box[4], box[5]));
+  }
+  if (chosen.polygon.empty()) return selection;
+  for (const Row& row : readRows(chosen.polygon)) {
+    if (row.numbers.size() != 2) throw tufted::IoError(row.name + ": is not X Y");
+    selection.polygon.emplace_back(row.numbers[0], row.numbers[1]);
+  }
+  if (selection.polygon.empty()) throw tufted::IoError(chosen.polygon.string() + ": has no corners");
+  return selection;
+}
+
+void choose(tufted::Geometry& geometry, Input& input) {
+  const tufted::Selection selection = selectionOf(input.chosen);
+  if (selection.isEmpty()) return;
+  if (geometry.is_mesh)
+    throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to point clouds, and " + input.name() +
+                               " holds a mesh (--as cloud takes its vertices alone)");
+  input.chosen.of = geometry.points.rows();
+  std::vector<int> rows = tufted::select(geometry, selection);
+  input.chosen.kept = std::ssize(rows);
+  if (geometry.height <= 1) input.chosen.rows = std::move(rows);
+}
+
+}  // namespace
+
+int ChosenPoints::rowOf(int number) const {
+  if (rows.empty()) return number;
+  const auto row = std::lower_bound(rows.begin(), rows.end(), number);
+  return row == rows.end() || *row != number ? -1 : static_cast<int>(row - rows.begin());
+}
+
+nlohmann::ordered_json ChosenPoints::json() const {
+  nlohmann::ordered_json json = {{"points", of}, {"kept", kept}};
+  if (!selection.where.empty()) json["where"] = selection.where;
+  if (!crop.empty()) json["crop"] = crop;
+  if (!polygon.empty()) json["polygon"] = polygon.string();
+  if (selection.thin > 0) json["thin"] = selection.thin;
+  return json;
+}
 
 CLI::Option* addInput(CLI::App& command, Input& input) {
   CLI::Option* const file =
@@ -23,6 +92,7 @@ CLI::Option* addInput(CLI::App& command, Input& input) {
           ->required()
           ->check(notEmpty);
   addChoice(command, "--as", input.as, kinds, "Read FILE as a point cloud or as a mesh (a mesh if FILE has faces)");
+  addSelection(command, input.chosen);
   return file;
 }
 
@@ -62,11 +132,10 @@ double usableMemory() {
 
 std::string memoryText(const Input& input, std::int64_t points, double bytes) {
   char text[200];
-  std::snprintf(
-      text, sizeof text,
-      ": L and M of %lld points take %.3g GB of memory or more, and %.3g GB are available; thin the points, or "
-      "cut the file into parts",
-      static_cast<long long>(points), bytes / 1e9, usableMemory() / 1e9);
+  std::snprintf(text, sizeof text,
+                ": L and M of %lld points take %.3g GB of memory or more, and %.3g GB are available; thin the points "
+                "(--thin), or cut the file into parts (--crop)",
+                static_cast<long long>(points), bytes / 1e9, usableMemory() / 1e9);
   return input.name() + text;
 }
 
@@ -75,22 +144,29 @@ std::optional<tufted::FileHead> readInputHead(const Input& input) {
 }
 
 void refuseTooMany(const Input& input) {
+  if (input.chosen.isAsked()) return;
   const std::optional<tufted::FileHead> head = readInputHead(input);
   if (!head || head->faces > 0) return;
   const double needed = static_cast<double>(head->points) * least_build_bytes;
   if (needed > usableMemory()) throw tufted::FileTooLarge(memoryText(input, head->points, needed));
 }
 
-tufted::Geometry readInput(const Input& input, const tufted::Progress& progress) {
+tufted::Geometry readInput(Input& input, const tufted::Progress& progress) {
   tufted::Geometry geometry = readAny(input, progress);
   if (input.weld && !geometry.is_mesh)
     throw tufted::InvalidInput("--weld applies to meshes, and " + input.name() +
                                " holds a point cloud, whose coincident points are merged in any case");
+  choose(geometry, input);
   return geometry;
 }
 
-void addMerged(const tufted::Geometry& geometry, Summary& summary) {
+void addMerged(const tufted::Geometry& geometry, const Input& input, Summary& summary) {
   if (geometry.merged_vertices > 0)
     summary.add("merged", "%lld equal corners; indices and rows are those of points.ply",
                 static_cast<long long>(geometry.merged_vertices));
+  const ChosenPoints& chosen = input.chosen;
+  if (chosen.of > 0)
+    summary.add("chosen", "%lld of %lld points%s", static_cast<long long>(chosen.kept),
+                static_cast<long long>(chosen.of),
+                chosen.rows.empty() ? "; the others are missing pixels" : "; file_row.npy has their rows in the file");
 }

@@ -4,25 +4,48 @@
 #include <CLI/Option.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "summary.h"
 #include "tufted/io/head.h"
 #include "tufted/io/read.h"
+#include "tufted/io/select.h"
+
+/// The options that choose points of a cloud before anything is computed, and what they chose.
+struct ChosenPoints {
+  tufted::Selection selection;
+  std::string crop;  ///< value of --crop; empty: not given
+  std::filesystem::path polygon;
+  std::int64_t of = 0;    ///< points of the file; 0: all are kept
+  std::int64_t kept = 0;  ///< points that were kept
+  std::vector<int> rows;  ///< the row in the file of each point; empty: the points are those of the file, in order
+
+  /// Whether any of the options was given.
+  bool isAsked() const { return !selection.isEmpty() || !crop.empty() || !polygon.empty(); }
+  /// The row in the file of a point. @param point its row in the results
+  int numberOf(int point) const { return rows.empty() ? point : rows[static_cast<std::size_t>(point)]; }
+  /// The row in the results of a point, -1 if it was not chosen. @param number its row in the file
+  int rowOf(int number) const;
+  /// The conditions and counts, for report.json.
+  nlohmann::ordered_json json() const;
+};
 
 /// The input of a command.
 struct Input {
   std::filesystem::path file;  ///< `-`: standard input; may be a pipe, such as the shell's <(command)
   tufted::ReadAs as = tufted::ReadAs::automatic;
   bool weld = false;  ///< see MeshOptions::weld
+  ChosenPoints chosen;
 
   bool isStandardInput() const { return file == "-"; }
   /// Name of the input in messages.
   std::string name() const { return isStandardInput() ? "standard input" : file.string(); }
 };
 
-/// Adds FILE, which is required, and --as. Returns the option FILE.
+/// Adds FILE, which is required, --as, and the options that choose points. Returns the option FILE.
 CLI::Option* addInput(CLI::App& command, Input& input);
 
 /// Adds --weld, for commands that take meshes.
@@ -38,14 +61,16 @@ std::string memoryText(const Input& input, std::int64_t points, double bytes);
 /// Reads the header of the input, if that is possible without reading all of it, see tufted::readHead().
 std::optional<tufted::FileHead> readInputHead(const Input& input);
 
-/// Refuses a cloud whose header counts more points than can be built in the available memory, before it is read.
+/// Refuses a cloud whose header counts more points than can be built in the available memory, before it is read, unless
+/// points are chosen.
 /// @throws FileTooLarge; IoError as tufted::readHead()
 void refuseTooMany(const Input& input);
 
-/// Reads the input.
+/// Reads the input, and drops the points that were not chosen.
 /// @throws IoError and Cancelled as tufted::read(); InvalidInput for --weld with a cloud, whose equal points are always
-/// merged
-tufted::Geometry readInput(const Input& input, const tufted::Progress& progress);
+/// merged, for choosing points of a mesh, and as select()
+tufted::Geometry readInput(Input& input, const tufted::Progress& progress);
 
-/// Notes that equal corners of an STL were merged, so that indices of points are not places in the file.
-void addMerged(const tufted::Geometry& geometry, Summary& summary);
+/// Notes that equal corners of an STL were merged, so that indices of points are not places in the file, and how many
+/// points were chosen.
+void addMerged(const tufted::Geometry& geometry, const Input& input, Summary& summary);

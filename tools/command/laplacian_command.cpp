@@ -36,6 +36,7 @@ constexpr const char* description = "Build L and M for a point cloud or a mesh a
 constexpr const char* footer = R"(Examples:
   tufted laplacian scan.ply --out laplacian
   tufted laplacian mesh.off --format npz,mat --out laplacian
+  tufted laplacian scan.ply --where z=0..2 --thin 0.01 --out part
 
 Sign and scale:
   L is positive semidefinite: minus the Laplacian, integrated. libigl and PMP use the opposite sign.
@@ -70,7 +71,12 @@ polygonal data). OBJ, OFF and VTK without faces are clouds. The extension decide
 .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl .npy .vtk), or if it is unknown the content. L and M use the normals
 of FILE only with --normals; points.ply, points.pcd and points.las contain them in any case.
 
+Points can be dropped before the build: --where compares fields, such as x, y, z, intensity and classification, with
+numbers, lists (2,6), ranges (10..20) or fields, by = != < <= > >=. Results have a row per kept point; indices that are
+given count the points of FILE. Dropped pixels of an organized cloud become missing ones, and its rows stay.
+
 Files in DIR, which replace older ones when all are complete; other files in DIR are kept:
+  file_row.npy        the row of each kept point in FILE, if --where, --crop, --polygon or --thin dropped points
   report.json         counts, seconds, options, sign and scale, and the list of the files of this result
   measured_positions.npy
                       N x 3: the positions between which lengths are measured; noisy points of a cloud are moved
@@ -152,7 +158,7 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
   Summary summary;
   summary.add("file", "%s (%s)", settings.input.name().c_str(), geometry.is_mesh ? "mesh" : "cloud");
   if (geometry.polygons > 0) summary.add("polygons", "%lld cut into triangles", count(geometry.polygons));
-  addMerged(geometry, summary);
+  addMerged(geometry, settings.input, summary);
   summary.add("points", "%s", pointsText(report).c_str());
   if (report.rim_points + report.jump_points + report.lost_points > 0)
     summary.add("boundary", "%lld points on rims, %lld at depth jumps, %lld where triangles are missing",
@@ -193,6 +199,9 @@ int runLaplacian(Settings& settings) {
   const tufted::Laplacian laplacian = buildLaplacian(geometry, settings.input, settings.build, keep_cover, progress);
   bar.setPoints(0);
   write.source = settings.input.name();
+  if (settings.input.chosen.of > 0)
+    write.selection =
+        settings.input.chosen.json().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   write.progress = progress;
   if (geometry.is_mesh)
     write.mesh = &settings.build.mesh;

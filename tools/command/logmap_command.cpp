@@ -46,7 +46,7 @@ struct Settings {
 
 void check(Settings& settings, const Operator& source) {
   checkFrames(source);
-  settings.places = settings.points.places(source.points());
+  settings.places = settings.points.places(source);
   if (settings.places.size() != 1)
     throw tufted::InvalidInput(std::to_string(settings.places.size()) +
                                " sources are given, must be one by --source or --near");

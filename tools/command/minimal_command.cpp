@@ -46,7 +46,7 @@ void check(Settings& settings, const Operator& source) {
   checkPositions(source);
   checkHasPoints(source);
   if (settings.fixed.empty()) return;
-  for (const Row& row : readRows(settings.fixed)) settings.options.fixed.push_back(indexOf(row, source.points()));
+  for (const Row& row : readRows(settings.fixed)) settings.options.fixed.push_back(indexOf(row, source));
   if (settings.options.fixed.empty())
     throw tufted::IoError(settings.fixed.string() + ": names no point, must name one");
 }

@@ -84,6 +84,7 @@ std::vector<ShownField> fieldsOf(const OperatorSettings& settings, const std::ve
 
 void write(const OperatorSettings& settings, const Operator& source, const Results& results) {
   nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", settings.command}, {"source", source.name}};
+  if (source.chosen.of > 0) json["selection"] = source.chosen.json();
   json.update(results.report);
   const tufted::Report& built = source.laplacian.report;
   if (settings.folder.empty() && built.neighbors > 0)  // a cloud
@@ -144,7 +145,9 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   addLookOptions(command, settings.look);
   addVerboseConsole(command, settings.console);
   command.option_defaults()->group("Options");  // the group of the subcommand's own options, listed first
-  std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
+  std::vector<const CLI::Option*> unused;
+  for (const char* const of_file : {"--as", "--weld", "--where", "--crop", "--polygon", "--thin"})
+    unused.push_back(command.get_option(of_file));
   unused.insert(unused.end(), settings.build.building.begin(), settings.build.building.end());
   command.parse_complete_callback([file, folder, unused, &command, &settings] {
     settings.inputs = inputsOf(command);
@@ -179,6 +182,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   } else {
     readFolder(settings, source);
   }
+  source.chosen = settings.input.chosen;
   checkpoint();
   if (settings.look.isWanted() && source.geometry.points.rows() == 0 && source.points() > 0)
     throw tufted::IoError(source.name + ": has no points to look at, which `tufted laplacian --format npz,ply` writes");
@@ -205,7 +209,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   warnings.insert(warnings.end(), results.warnings.begin(), results.warnings.end());
   for (const std::string& warning : warnings) warn(bar, warning);
   Summary summary;
-  addMerged(source.geometry, summary);
+  addMerged(source.geometry, settings.input, summary);
   summary.append(chosen.summary);
   summary.append(results.summary);
   addBuild(source.laplacian.report, settings.build, summary);

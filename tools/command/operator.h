@@ -67,6 +67,7 @@ struct Operator {
   /// The component of each point before some were left out, and the option that left them out; empty: none was.
   std::vector<int> all_components = {};
   std::string chosen_by = {};
+  ChosenPoints chosen = {};                      ///< which points of FILE were chosen
   tufted::Points moved;                          ///< the points as moved by --denoise; 0 x 3 without it
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< direction given by --up; 0: none
 

@@ -53,5 +53,6 @@ void checkOutput(const std::vector<NamedInput>& inputs, const std::filesystem::p
   const std::string option = "--out " + out.string();
   refuseOverwriting(option, out, inputs);
   for (const std::string& name : files) refuseOverwriting(option, out / name, inputs);
+  refuseOverwriting(option, out / "file_row.npy", inputs);  // written if points are chosen
   tufted::checkWritable(out, files);
 }

@@ -69,7 +69,7 @@ void check(Settings& settings, const Operator& source) {
   for (const Row& row : readRows(settings.rim)) {
     const std::size_t count = row.numbers.size();
     if (count != 1 && count != 3) throw tufted::IoError(row.name + ": is not INDEX or INDEX U V");
-    options.rim.push_back(indexOf({row.name, {row.numbers[0]}}, source.points()));
+    options.rim.push_back(indexOf({row.name, {row.numbers[0]}}, source));
     values.insert(values.end(), row.numbers.begin() + 1, row.numbers.end());
     if (!values.empty() && values.size() != 2 * options.rim.size())
       throw tufted::IoError(row.name + ": has " + std::to_string(count) + " numbers, must have as many as the first");

@@ -41,8 +41,8 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
-  settings.ends = {placeOf(parseNumbers(settings.from, "--from"), source.points(), "--from " + settings.from),
-                   placeOf(parseNumbers(settings.to, "--to"), source.points(), "--to " + settings.to)};
+  settings.ends = {placeOf(parseNumbers(settings.from, "--from"), source, "--from " + settings.from),
+                   placeOf(parseNumbers(settings.to, "--to"), source, "--to " + settings.to)};
 }
 
 Results compute(Settings& settings, Operator& source) {

@@ -51,7 +51,7 @@ void addPinOptions(CLI::App& command, PinOptions& options) {
       ->type_name("TEXT");
 }
 
-PlacedPins placePins(const PinOptions& options, int points) {
+PlacedPins placePins(const PinOptions& options, const Operator& source) {
   std::vector<Pin> given;
   readPins(options.by_index, 1, given);
   readPins(options.by_position, 3, given);
@@ -65,7 +65,7 @@ PlacedPins placePins(const PinOptions& options, int points) {
       throw tufted::InvalidInput(pin.name + " has " + std::to_string(pin.values.size()) + " values, must have " +
                                  (columns == 0 ? "at least one" : std::to_string(columns) + " as the first"));
     pins.values.row(std::ssize(pins.places)) = Eigen::Map<const Eigen::RowVectorXd>(pin.values.data(), columns);
-    pins.places.push_back(placeOf(pin.place, points, pin.name));
+    pins.places.push_back(placeOf(pin.place, source, pin.name));
   }
   if (!pins.values.allFinite()) throw tufted::InvalidInput("a pin has a value that is not finite, must have none");
   return pins;

@@ -31,4 +31,4 @@ struct PlacedPins {
 
 /// Parses the pins.
 /// @throws InvalidInput for no pin, invalid pins, or different numbers of values; IoError as readRows()
-PlacedPins placePins(const PinOptions& options, int points);
+PlacedPins placePins(const PinOptions& options, const Operator& source);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 
@@ -38,13 +39,15 @@ void addNearest(const Place& place, int point, std::size_t number, const Operato
                                        {"distance", distance},
                                        {"spacing", spacing}});
   if (number < most)
-    results.summary.add("nearest", "point %d, %.6g from %s", point, distance, place.name.c_str());
+    results.summary.add("nearest", "point %d, %.6g from %s", source.chosen.numberOf(point), distance,
+                        place.name.c_str());
   else if (number == most)
     results.summary.add("nearest", "to further positions: see report.json");
   if (distance <= spacing) return;
   if (results.warnings.size() < most)
-    results.warnings.push_back(place.name + ": the nearest point, " + std::to_string(point) + ", is " +
-                               numberText(distance) + " away, and its neighbours at most " + numberText(spacing));
+    results.warnings.push_back(place.name + ": the nearest point, " + std::to_string(source.chosen.numberOf(point)) +
+                               ", is " + numberText(distance) + " away, and its neighbours at most " +
+                               numberText(spacing));
   else if (results.warnings.size() == most)
     results.warnings.emplace_back("further positions are as far from their nearest point: see report.json");
 }
@@ -86,7 +89,7 @@ std::vector<Row> readRows(const std::filesystem::path& path) {
   return rows;
 }
 
-Place placeOf(const std::vector<double>& numbers, int points, const std::string& name) {
+Place placeOf(const std::vector<double>& numbers, const Operator& source, const std::string& name) {
   Place place;
   place.name = name;
   if (numbers.size() == 3) {
@@ -94,16 +97,18 @@ Place placeOf(const std::vector<double>& numbers, int points, const std::string&
     if (!place.position.allFinite()) throw tufted::InvalidInput(name + " is not finite, must be");
   } else {
     if (numbers.size() != 1) throw tufted::InvalidInput(name + " is neither an index nor X,Y,Z");
-    if (!(numbers[0] >= 0 && numbers[0] < points && numbers[0] == std::floor(numbers[0])))
+    const auto points = std::max(source.chosen.of, static_cast<std::int64_t>(source.points()));
+    if (!(numbers[0] >= 0 && numbers[0] < static_cast<double>(points) && numbers[0] == std::floor(numbers[0])))
       throw tufted::InvalidInput(name + " is no index in [0, " + std::to_string(points) + "), the number of points");
-    place.index = static_cast<int>(numbers[0]);
+    place.index = source.chosen.rowOf(static_cast<int>(numbers[0]));
+    if (place.index < 0) throw tufted::InvalidInput(name + " is a point that was not chosen, must be one that was");
   }
   return place;
 }
 
-int indexOf(const Row& row, int points) {
+int indexOf(const Row& row, const Operator& source) {
   if (row.numbers.size() != 1) throw tufted::IoError(row.name + ": is not INDEX");
-  return placeOf(row.numbers, points, row.name).index;
+  return placeOf(row.numbers, source, row.name).index;
 }
 
 std::vector<int> locate(const std::vector<Place>& places, const Operator& source, Results& results) {
@@ -127,23 +132,23 @@ std::vector<int> locate(const std::vector<Place>& places, const Operator& source
   return points;
 }
 
-std::vector<Place> NamedPoints::places(int points) const {
+std::vector<Place> NamedPoints::places(const Operator& source) const {
   std::vector<Place> found;
   for (const std::string& list : indices) {
     std::istringstream words(list);
     for (const double index : parseNumbers(list, "--source")) {
       std::string word;
       std::getline(words, word, ',');
-      found.push_back(placeOf({index}, points, "--source " + word));
+      found.push_back(placeOf({index}, source, "--source " + word));
     }
   }
   for (const std::string& position : positions) {
     const std::vector<double> numbers = parseNumbers(position, "--near");
     if (numbers.size() != 3) throw tufted::InvalidInput("--near " + position + " is not X,Y,Z");
-    found.push_back(placeOf(numbers, points, "--near " + position));
+    found.push_back(placeOf(numbers, source, "--near " + position));
   }
   if (!file.empty())
-    for (const Row& row : readRows(file)) found.push_back(placeOf(row.numbers, points, row.name));
+    for (const Row& row : readRows(file)) found.push_back(placeOf(row.numbers, source, row.name));
   return found;
 }
 
@@ -175,7 +180,7 @@ void addFaceOption(CLI::App& command, std::vector<std::string>& faces, const std
 }
 
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what) {
-  command.add_option("--source", points.indices, what + ": indices, counted from 0")
+  command.add_option("--source", points.indices, what + ": indices in FILE, counted from 0")
       ->allow_extra_args(false)  // the next word may be FILE
       ->type_name("I,J,...");
   command.add_option("--near", points.positions, what + ": the point nearest to this position; may be repeated")

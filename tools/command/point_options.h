@@ -27,21 +27,21 @@ std::vector<Row> readRows(const std::filesystem::path& path);
 
 /// A point that the user names: by index, or as the nearest to a position.
 struct Place {
-  int index = -1;                                      ///< -1: named by position
+  int index = -1;                                      ///< row in the results; -1: named by position
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< finite
   std::string name;                                    ///< name of the option or line that gives it, for messages
 };
 
 /// The point that numbers name.
 /// @param numbers an index, or x, y, z
-/// @param points number of points
+/// @param source whose points are named; an index counts the points of FILE, also if only some were chosen
 /// @param name option or line that gives them, for messages
-/// @throws InvalidInput unless they are an index in [0, points) or a finite position
-Place placeOf(const std::vector<double>& numbers, int points, const std::string& name);
+/// @throws InvalidInput unless they are the index of a point that was chosen or a finite position
+Place placeOf(const std::vector<double>& numbers, const Operator& source, const std::string& name);
 
 /// The index of a point in a line of a file.
 /// @throws IoError for a line of several numbers, InvalidInput as placeOf()
-int indexOf(const Row& row, int points);
+int indexOf(const Row& row, const Operator& source);
 
 /// Finds the points that the user names. Notes in `results` which points are nearest to positions and how far away, and
 /// warns of those that are farther away than their farthest neighbour.
@@ -55,7 +55,7 @@ struct NamedPoints {
   std::filesystem::path file;
 
   /// Parses all of them, those by index first. @throws as placeOf() and readRows()
-  std::vector<Place> places(int points) const;
+  std::vector<Place> places(const Operator& source) const;
 };
 
 /// The points that --face names.

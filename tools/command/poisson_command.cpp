@@ -48,7 +48,7 @@ void check(Settings& settings, const Operator& source) {
   settings.source.shown = {{"u", settings.f.cols()}};
   if (settings.pins.empty()) settings.source.shown.push_back({"mean", settings.f.cols()});
   if (settings.pins.empty()) return;
-  settings.placed = placePins(settings.pins, source.points());
+  settings.placed = placePins(settings.pins, source);
   if (settings.placed.values.cols() != settings.f.cols())
     throw tufted::InvalidInput("pins have " + std::to_string(settings.placed.values.cols()) +
                                " values, must have as many as f has columns, " + std::to_string(settings.f.cols()));

@@ -72,7 +72,7 @@ void check(Settings& settings, const Operator& source) {
     throw tufted::InvalidInput("--seeds excludes --method " + nameOf(options.method));
   options.seeds.clear();
   for (const double index : parseNumbers(settings.seeds, "--seeds"))
-    options.seeds.push_back(placeOf({index}, source.points(), "--seeds " + settings.seeds).index);
+    options.seeds.push_back(placeOf({index}, source, "--seeds " + settings.seeds).index);
 }
 
 Results compute(Settings& settings, Operator& source) {

@@ -52,7 +52,7 @@ struct Settings {
 void check(Settings& settings, const Operator& source) {
   settings.source.shown = {{"signed_distance"}};
   checkFrames(source);
-  for (const Row& row : readRows(settings.file)) settings.curve.push_back(indexOf(row, source.points()));
+  for (const Row& row : readRows(settings.file)) settings.curve.push_back(indexOf(row, source));
   if (settings.curve.size() < 2)
     throw tufted::IoError(settings.file.string() + ": has " + std::to_string(settings.curve.size()) +
                           " points, must have at least 2");

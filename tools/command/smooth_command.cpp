@@ -77,7 +77,7 @@ void check(Settings& settings, const Operator& source) {
   if (settings.keep_volume) throw tufted::InvalidInput("--keep-volume excludes --fixed");
   settings.fixed.assign(static_cast<std::size_t>(source.points()), 0);
   for (const Row& row : readRows(settings.fixed_file))
-    settings.fixed[static_cast<std::size_t>(indexOf(row, source.points()))] = 1;
+    settings.fixed[static_cast<std::size_t>(indexOf(row, source))] = 1;
 }
 
 Results compute(Settings& settings, Operator& source) {

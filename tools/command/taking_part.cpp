@@ -11,7 +11,7 @@ std::string whyLeftOut(int point, const Operator& source) {
   const tufted::Laplacian& laplacian = source.laplacian;
   const tufted::PointStatus status = laplacian.status[laplacian.representative[point]];
   if (status == tufted::PointStatus::active) return "";
-  const std::string name = "point " + std::to_string(point);
+  const std::string name = "point " + std::to_string(source.chosen.numberOf(point));
   if (status == tufted::PointStatus::not_finite) return name + " is not finite";
   const bool is_excluded = !source.all_components.empty() && source.all_components[point] >= 0;
   return name + (is_excluded ? " lies on a component that " + source.chosen_by + " leaves out" : " is isolated");

@@ -57,7 +57,7 @@ struct Settings {
 
 void check(Settings& settings, const Operator& source) {
   checkFrames(source);
-  settings.places = settings.points.places(source.points());
+  settings.places = settings.points.places(source);
   settings.starts = pointsInFaces(settings.faces, source);
   if (settings.places.size() + settings.starts.size() != 1)
     throw tufted::InvalidInput(std::to_string(settings.places.size() + settings.starts.size()) +

@@ -47,7 +47,7 @@ struct Settings {
 
 void check(Settings& settings, const Operator& source) {
   checkFrames(source);
-  settings.places = settings.points.places(source.points());
+  settings.places = settings.points.places(source);
   if (settings.places.empty())
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near or --sources");
   if (settings.places.size() != settings.texts.size())

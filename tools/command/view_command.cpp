@@ -61,7 +61,8 @@ void addArrays(const std::filesystem::path& folder, const std::vector<std::strin
   std::vector<SceneField> fields;
   for (const std::filesystem::path& file : files) {
     const std::string name = file.stem().string();
-    if (name == "frames" || name == "measured_positions" || name == "representative" || name == "filtered_positions")
+    if (name == "frames" || name == "measured_positions" || name == "representative" || name == "filtered_positions" ||
+        name == "file_row")
       continue;
     Eigen::MatrixXd values = tufted::readArray(file);
     if (name == "path") {

@@ -50,8 +50,8 @@ void check(Settings& settings, const Operator& source) {
     if (width == 0) width = row.numbers.size();
     if (row.numbers.size() != width || width > 2)
       throw tufted::IoError(row.name + ": is not " + (width == 1 ? "INDEX, as the first line" : "INDEX HANDLE"));
-    const int handle = width == 2 ? indexOf({row.name + ": the handle", {row.numbers[1]}}, source.points()) : count;
-    points[handle].push_back(indexOf({row.name, {row.numbers[0]}}, source.points()));
+    const int handle = width == 2 ? indexOf({row.name + ": the handle", {row.numbers[1]}}, source) : count;
+    points[handle].push_back(indexOf({row.name, {row.numbers[0]}}, source));
     ++count;
   }
   if (count == 0) throw tufted::IoError(settings.file.string() + ": names no point, must name one");

@@ -37,6 +37,7 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 ///   NAME.npy               float64, or int32; one column: N values, else rows x columns in C order
 ///   points.ply, points.pcd, points.las as writeLaplacian writes them, with each array per point as a field NAME of
 ///                          float32; several columns: NAME_0, NAME_1, ... in PLY and LAS, COUNT values in PCD
+///   file_row.npy           int32, the field of select(), if the points have it
 ///   lines.ply              with options.lines: their points with `value` (float64) and edges between them
 ///   lines.obj              with options.lines: an element `l` for each line, of a closed one with its first point again
 ///   report.json            options.report, and as `files` the names of all files of this result

@@ -38,6 +38,7 @@ struct WriteOptions {
   /// programs that expect full rank. The paper's program writes the same.
   bool dummy = false;
   std::string source = {};              ///< name of the file of the points, recorded in report.json
+  std::string selection = {};           ///< what select() kept of that file, a JSON object; empty: all points
   const CloudOptions* cloud = nullptr;  ///< options of a cloud's build, recorded in report.json; borrowed
   const MeshOptions* mesh = nullptr;    ///< options of a mesh's build, recorded in report.json; borrowed
   /// For a Laplacian that was read from a folder: the options of its build as the report.json there has them, a JSON
@@ -72,6 +73,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   triangles.ply       as points.ply, but at Laplacian::positions, with surfaceTriangles() or those of the mesh
 ///   measured_positions.npy  float64, N x 3, see Laplacian::positions
 ///   components.npy      int32, N, see Laplacian::component
+///   file_row.npy        int32, N, the field of select(), if the points have it
 ///   report.json         the kind, the Report, sign and scale of L, changes made in reading the input, and as `files`
 ///                       the names of all files of this result
 /// The points have x y z and normals (where known), the fields of the input, mass (float64), boundary, status (uint8)
@@ -93,9 +95,9 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// ones in `dir`/.tufted-XXXXXX/old. If several processes write into one `dir`, each renames all its files before the
 /// next one does.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
-/// word, the pose of the sensor is not valid, `build_options` is no JSON object, or the cover is asked for and was not
-/// kept; if LAS cannot hold a point, which is not finite or out of the range of scale and offset, or more than 341
-/// values per point; for Format::triangles for the same reasons as surfaceTriangles()
+/// word, the pose of the sensor is not valid, `build_options` or `selection` is no JSON object, or the cover is asked
+/// for and was not kept; if LAS cannot hold a point, which is not finite or out of the range of scale and offset, or more
+/// than 341 values per point; for Format::triangles for the same reasons as surfaceTriangles()
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,

@@ -6,7 +6,7 @@ PointCloudHeatSolver and the mesh solvers have the names and arguments of robust
 L is minus the Laplacian, integrated: symmetric, positive semidefinite. M holds areas. Poisson equation: L u = M f.
 Eigenproblem: L x = lambda M x.
 """
-from ._clouds import Mesh, PointCloud, denoise, load, read
+from ._clouds import Mesh, PointCloud, denoise, load, read, thin
 from ._drop_in import (MeshHeatMethodDistanceSolver, MeshVectorHeatSolver, PointCloudHeatSolver, compute_distance,
                        compute_distance_multisource, mesh_laplacian, point_cloud_laplacian, read_mesh,
                        read_point_cloud)
@@ -20,5 +20,5 @@ __all__ = [
     "Cancelled", "Curvature", "Deformation", "Denoised", "FileTooLarge", "Gradients", "InvalidInput", "IoError", "Isoline", "LogMap", "Mesh",
     "MeshHeatMethodDistanceSolver", "MeshVectorHeatSolver", "MinimalSurface", "Parameterization", "Path", "PointCloud",
     "PointCloudHeatSolver", "Segments", "SolverFailure", "Spectrum", "Surface", "Trace", "TuftedWarning", "compute_distance", "compute_distance_multisource", "denoise", "load",
-    "mesh_laplacian", "point_cloud_laplacian", "read", "read_mesh", "read_point_cloud",
+    "mesh_laplacian", "point_cloud_laplacian", "read", "read_mesh", "read_point_cloud", "thin",
 ]

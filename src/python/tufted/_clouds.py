@@ -178,19 +178,44 @@ def denoise(points, *, image=None, viewpoint=None, threads=0, progress=None):
     return Denoised(*denoised)
 
 
+def thin(points, spacing):
+    """Thins points to a Poisson disk sample: no two of the chosen points are closer than `spacing`, and every other
+    point is closer than that to a chosen one. The same positions are chosen in whatever order the points are given.
+
+    points: N x 3; rows that are not finite are not chosen. spacing: in the unit of the points, > 0.
+    Returns the indices of the chosen points, int32, ascending; of equal points the first.
+    """
+    return _tufted.thin(check.rows_of_three("thin", "points", points), check.number("thin", "spacing", spacing))
+
+
+def _selection(where, crop, polygon, spacing):
+    box = [] if crop is None else check.columns("read", "crop", crop, 6)[0].ravel()
+    corners = np.zeros((0, 2)) if polygon is None else check.columns("read", "polygon", polygon, len(polygon))[0]
+    if corners.shape[1] != 2:
+        raise InvalidInput(f"read: polygon has rows of {corners.shape[1]} numbers, must be x, y")
+    return _tufted.Selection([where] if isinstance(where, str) else list(where), box, corners,
+                             check.number("read", "thin", spacing))
+
+
 def _set_geometry(surface, geometry, source):
     surface._geometry = geometry
     surface._source = source
     return surface
 
 
-def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=False, progress=None, **options):
+def read(path, *, kind="automatic", weld=False, where=(), crop=None, polygon=None, thin=0, image=None, rings=None,
+         normals=False, progress=None, **options):
     """Reads a cloud or a mesh from a file and builds its Laplacian, as `tufted laplacian` does.
 
     path: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL or VTK. A warning says what of the file is skipped or
     changed.
     kind: "automatic", "cloud" (faces are ignored) or "mesh" (a file without faces is an error).
     weld: as in Mesh; False for clouds, whose equal points are always merged.
+    where, crop, polygon, thin: which points of a cloud are kept, all if none of the four is given. where: comparisons of
+    fields that must all hold, such as "classification=2,6", "z=10..20" or "return_number=number_of_returns". crop: six
+    numbers, the lower and the upper corner of a box, sides included. polygon: P x 2, corners in x and y. thin: the
+    spacing of thin(), applied last; 0: no thinning. `file_row` of the result says which points of the file are kept;
+    the points that an organized cloud loses become NaN instead.
     image: whether the pixels of an organized cloud give the neighbours; None: if a pinhole camera at the file's
     viewpoint saw them, and neither neighbors, neighborhoods, rings nor preset="lidar" is given.
     rings: True: the rings of a spinning scanner give the neighbours, by the file's fields `ring` and `azimuth`;
@@ -203,7 +228,8 @@ def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=
     has_rings = rings is not None and rings is not False
     if image and has_rings:
         raise InvalidInput("read: image and rings are both given, must be one at most")
-    geometry = _tufted.read_file(path, kind, bool(weld), check.callback("read", progress))
+    geometry = _tufted.read_file(path, kind, bool(weld), _selection(where, crop, polygon, thin),
+                                 check.callback("read", progress))
     if geometry.is_mesh:
         for name, value in (("image", image), ("rings", has_rings), ("normals", normals)):
             if value:

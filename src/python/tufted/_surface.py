@@ -65,6 +65,11 @@ class Surface(Spectral, Distances, Equations, Shape):
         return self._laplacian.status
 
     @property
+    def file_row(self):
+        """The row of each point in the file, N int32, if read() kept some of its points; otherwise None."""
+        return None if self._geometry is None else self._geometry.fields.get("file_row")
+
+    @property
     def representative(self):
         """The point itself or, for a coincident point, the lowest index of an equal point; N int32."""
         return self._laplacian.representative
