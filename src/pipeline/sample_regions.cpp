@@ -18,7 +18,7 @@ constexpr int ball_count = 8;
 constexpr int least_sample = 1000;  ///< balls of 125 points have more than one neighbourhood of 30 points
 
 /// A ball of the sample, and its points.
-struct Ball {
+struct Region {
   Eigen::RowVector3d center;
   double squared_radius = 0;
   std::vector<std::pair<double, int>> inside;  ///< squared distances and indices
@@ -40,7 +40,7 @@ std::vector<int> everyNth(const Points& points, Eigen::Index stride) {
 
 /// Chooses the radius of a ball so that it holds a little more than `share` points, by `some` of the points.
 void chooseRadius(const Points& points, const std::vector<int>& some, Eigen::Index stride, std::size_t share,
-                  Ball& ball) {
+                  Region& ball) {
   std::vector<double> squared;
   squared.reserve(some.size());
   for (const int i : some) squared.push_back((points.row(i) - ball.center).squaredNorm());
@@ -68,13 +68,13 @@ std::vector<int> sampleRegions(const Points& points, int most) {
   const std::vector<int> some = everyNth(points, stride);
   if (some.empty()) return sample;
   const std::size_t share = static_cast<std::size_t>(most) / ball_count;
-  Ball balls[ball_count];
+  Region balls[ball_count];
   for (std::size_t b = 0; b < ball_count; ++b) {
     balls[b].center = points.row(some[(2 * b + 1) * some.size() / (2 * ball_count)]);
     chooseRadius(points, some, stride, share, balls[b]);
   }
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    for (Ball& ball : balls) {
+    for (Region& ball : balls) {
       const double squared = (points.row(i) - ball.center).squaredNorm();
       if (!(squared <= ball.squared_radius) || std::isinf(squared)) continue;
       ball.inside.emplace_back(squared, static_cast<int>(i));
@@ -82,7 +82,7 @@ std::vector<int> sampleRegions(const Points& points, int most) {
       if (ball.inside.size() >= 16 * share) ball.keepNearest(share);
     }
   }
-  for (Ball& ball : balls) {
+  for (Region& ball : balls) {
     ball.keepNearest(share);
     for (const auto& [squared, i] : ball.inside) sample.push_back(i);
   }
