@@ -1,5 +1,4 @@
-// Traced lines: straight on unrolled surfaces, great circles, the way back, the inverse of the logarithmic map, ends,
-// and equivariance.
+// Traced lines: straight on unrolled surfaces, the way back, ends, equivariance, and odd triangles.
 #include "tufted/tracing.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +13,16 @@
 #include "shapes/random.h"
 #include "shapes/shapes.h"
 #include "support/refusal.h"
+#include "support/traced.h"
 #include "tufted/tufted.h"
 
 namespace tufted::tracing_test {
 namespace {
 
 using Eigen::RowVector3d;
+using support::lastOf;
+using support::polylineLength;
+using support::randomDirection;
 
 constexpr double pi = std::numbers::pi;
 
@@ -27,23 +30,9 @@ GeodesicTracer tracerOf(const Points& points, const Triangles& triangles) {
   return {points, triangles, meshFrames(points, triangles)};
 }
 
-RowVector3d lastOf(const TracedLine& traced) {
-  return traced.line.points.row(traced.line.points.rows() - 1);
-}
-
-RowVector3d randomDirection(shapes::Random& random) {
-  return {random.normal(), random.normal(), random.normal()};
-}
-
 SurfacePoint randomPlace(const Points& points, const Triangles& triangles, shapes::Random& random) {
   const int face = random.below(static_cast<int>(triangles.rows()));
   return SurfacePoint::inFace(points, triangles, face, {random.uniform(), random.uniform(), random.uniform()});
-}
-
-double polylineLength(const Points& points) {
-  double length = 0;
-  for (Eigen::Index i = 0; i + 1 < points.rows(); ++i) length += (points.row(i + 1) - points.row(i)).norm();
-  return length;
 }
 
 /// A band of quadrilaterals, each cut in two, around n generators from `bottom` to `top`; the last joins the first.
@@ -144,99 +133,6 @@ TEST(Trace, IsStraightOnAnUnrolledCone) {
   EXPECT_GT(passed, 30);
 }
 
-/// A place and a direction on the way along a geodesic.
-struct Motion {
-  Eigen::Vector3d place, direction;
-};
-
-/// The start of a geodesic whose direction is given up to the error of a tangent plane.
-Motion inPlane(const Motion& start, const Eigen::Vector3d& normal) {
-  return {start.place, (start.direction - normal.dot(start.direction) * normal).normalized()};
-}
-
-/// The geodesic of the unit sphere.
-Motion alongSphere(Motion start, double length) {
-  const auto& [p, d] = inPlane(start, start.place);
-  return {std::cos(length) * p + std::sin(length) * d, std::cos(length) * d - std::sin(length) * p};
-}
-
-/// The geodesic of shapes::torus(), by Runge-Kutta steps of its equation: it bends along the normal alone.
-Motion alongTorus(Motion at, double length) {
-  constexpr int steps = 300;
-  constexpr double ring = 1, tube = 0.4;
-  const Eigen::Vector3d centre = ring * Eigen::Vector3d(at.place.x(), at.place.y(), 0).normalized();
-  at = inPlane(at, (at.place - centre) / tube);
-  const auto bend = [&](const Motion& m) -> Eigen::Vector3d {
-    const double radius = std::hypot(m.place.x(), m.place.y());
-    const Eigen::Vector3d outward(m.place.x() / radius, m.place.y() / radius, 0);
-    const Eigen::Vector3d normal = (m.place - ring * outward) / tube;
-    const double around = Eigen::Vector3d(-outward.y(), outward.x(), 0).dot(m.direction);
-    const double across = m.direction.squaredNorm() - around * around;
-    return -(across / tube + around * around * normal.dot(outward) / radius) * normal;
-  };
-  const double h = length / steps;
-  for (int i = 0; i < steps; ++i) {
-    const auto moved = [&](double share, const Motion& by) -> Motion {
-      return {at.place + share * h * by.place, at.direction + share * h * by.direction};
-    };
-    const Motion k1 = {at.direction, bend(at)};
-    const Motion m2 = moved(0.5, k1), k2 = {m2.direction, bend(m2)};
-    const Motion m3 = moved(0.5, k2), k3 = {m3.direction, bend(m3)};
-    const Motion m4 = moved(1, k3), k4 = {m4.direction, bend(m4)};
-    at.place += h / 6 * (k1.place + 2 * k2.place + 2 * k3.place + k4.place);
-    at.direction += h / 6 * (k1.direction + 2 * k2.direction + 2 * k3.direction + k4.direction);
-  }
-  return at;
-}
-
-/// The greatest distances of the ends of lines from those of exact geodesics, in spacings, and of their directions, in
-/// spacings over the least radius of curvature, by which planes of triangles are tilted.
-std::pair<double, double> errorOn(const Points& points, const Triangles& triangles, const Frames& frames, double area,
-                                  double radius, double length, Motion (*exact)(Motion, double)) {
-  const GeodesicTracer tracer(points, triangles, frames);
-  shapes::Random random(101);
-  double worst = 0, turned = 0;
-  for (int i = 0; i < 30; ++i) {
-    const int vertex = random.below(static_cast<int>(points.rows()));
-    const RowVector3d start = points.row(vertex), normal = frames.normals.row(vertex);
-    const RowVector3d tangent = normal.cross(randomDirection(random)).normalized();
-    const TracedLine traced = tracer.query(SurfacePoint::vertex(vertex), 7 * tangent, length);
-    EXPECT_EQ(traced.reason, TraceEnd::length);
-    EXPECT_NEAR(polylineLength(traced.line.points), length, 1e-10);
-    const Motion end = exact({start, tangent}, length);
-    worst = std::max(worst, (lastOf(traced).transpose() - end.place).norm());
-    turned = std::max(turned, (traced.direction.transpose() - end.direction).norm());
-  }
-  const double spacing = std::sqrt(area / static_cast<double>(points.rows()));
-  return {worst / spacing, turned * radius / spacing};
-}
-
-TEST(Trace, IsAGreatCircleOnASphere) {
-  for (const int subdivisions : {3, 4, 5}) {
-    const shapes::Mesh mesh = shapes::icosphere(subdivisions);
-    const auto [end, turned] =
-        errorOn(mesh.points, mesh.triangles, meshFrames(mesh.points, mesh.triangles), 4 * pi, 1, 1.5, alongSphere);
-    EXPECT_LT(end, 0.5);
-    EXPECT_LT(turned, 1);
-  }
-  for (const int n : {1000, 4000}) {
-    const Laplacian cloud = pointCloudLaplacian(shapes::sphere(n, shapes::Sampling::jittered, 101).points);
-    const auto [end, turned] =
-        errorOn(cloud.positions, surfaceTriangles(cloud), cloud.frames, 4 * pi, 1, 1.5, alongSphere);
-    EXPECT_LT(end, 0.5);
-    EXPECT_LT(turned, 1);
-  }
-}
-
-TEST(Trace, IsAGeodesicOnATorus) {
-  const shapes::Cloud torus = shapes::torus(4000, shapes::Sampling::jittered, 101);
-  const Laplacian cloud = pointCloudLaplacian(torus.points);
-  const auto [end, turned] =
-      errorOn(cloud.positions, surfaceTriangles(cloud), cloud.frames, torus.area, 0.4, 0.6, alongTorus);
-  EXPECT_LT(end, 0.5);
-  EXPECT_LT(turned, 1);
-}
-
 TEST(Trace, LeadsBack) {
   const std::vector<shapes::Mesh> meshes = {shapes::icosphere(2), shapes::cubeMesh(6, shapes::Quality::bad),
                                             shapes::kleinBottle(12), shapes::moebius(6)};
@@ -307,42 +203,6 @@ TEST(Trace, EndsAtRimsAndBranches) {
   const TracedLine nothing = square.query(SurfacePoint::vertex(6), {1, 1, 0}, 0);
   EXPECT_EQ(nothing.line.points, Points(grid.points.row(6)));
   EXPECT_EQ(nothing.reason, TraceEnd::length);
-}
-
-/// The mean and the greatest distance between points and the ends of lines traced to them by their logarithmic map, up
-/// to a distance, in spacings.
-std::pair<double, double> roundTrip(const shapes::Cloud& cloud, double reach) {
-  const Laplacian laplacian = pointCloudLaplacian(cloud.points);
-  const LogMapSolver log(laplacian);
-  const GeodesicTracer tracer(laplacian.positions, surfaceTriangles(laplacian), laplacian.frames);
-  const auto n = cloud.points.rows();
-  double sum = 0, worst = 0;
-  int count = 0;
-  for (const int source : {3, 77, 500}) {
-    const LogMap map = log.query(source);
-    for (int i = 0; i < n; i += 7) {
-      const double distance = map.coordinates.row(i).norm();
-      if (!(distance > 0 && distance < reach)) continue;
-      const RowVector3d direction = map.coordinates(i, 0) * map.first + map.coordinates(i, 1) * map.second;
-      const TracedLine traced = tracer.query(SurfacePoint::vertex(source), direction, distance);
-      const double error = (lastOf(traced) - cloud.points.row(i)).norm();
-      sum += error;
-      worst = std::max(worst, error);
-      ++count;
-    }
-  }
-  const double spacing = std::sqrt(cloud.area / static_cast<double>(n));
-  return {sum / count / spacing, worst / spacing};
-}
-
-// Farther away on the torus the angles of the logarithmic map are off by more than lines are.
-TEST(Trace, InvertsTheLogarithmicMap) {
-  for (const shapes::Cloud& cloud :
-       {shapes::sphere(4000, shapes::Sampling::jittered, 101), shapes::torus(4000, shapes::Sampling::jittered, 101)}) {
-    const auto [mean, worst] = roundTrip(cloud, cloud.shape == "sphere" ? 1.2 : 0.4);
-    EXPECT_LT(mean, 0.1) << cloud.name;
-    EXPECT_LT(worst, 0.5) << cloud.name;
-  }
 }
 
 TEST(Trace, MovesTurnsAndScalesWithThePoints) {

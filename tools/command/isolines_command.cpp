@@ -43,7 +43,7 @@ struct Settings {
   OperatorSettings source;
   SignalOptions signals;
   std::string at;
-  int count = 0;
+  int count = 10;
   Eigen::MatrixXd field;
   std::vector<double> values;
 
@@ -68,8 +68,6 @@ std::vector<double> valuesBetween(const Eigen::MatrixXd& field, int count) {
 
 void check(Settings& settings, const Operator& source) {
   checkPositions(source);
-  if (settings.at.empty() == (settings.count == 0))
-    throw tufted::InvalidInput("exactly one of --at and --count must be given");
   settings.field = readSignals(settings.signals, source);
   if (settings.field.cols() != 1)
     throw tufted::InvalidInput("the field of --field or --values has " + std::to_string(settings.field.cols()) +
@@ -124,8 +122,9 @@ void addIsolines(CLI::App& app, Run& run) {
       addOperatorCommand<Settings>(app, run, "isolines", description, footer, compute, check);
   settings->source.needs_cover = true;
   addSignalOptions(*command, settings->signals, "Field, one value per point");
-  command->add_option("--at", settings->at, "Values of the lines")->type_name("V,...");
+  CLI::Option* const at = command->add_option("--at", settings->at, "Values of the lines")->type_name("V,...");
   addNumber(*command, "--count", settings->count, 1, 10000,
-            "Number of values, in equal steps between the least and the greatest of the field")
-      ->type_name("K");
+            "Number of values, in equal steps between the least and the greatest of the field (10)")
+      ->type_name("K")
+      ->excludes(at);
 }
