@@ -1,5 +1,6 @@
 #include "view/spacing.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace tufted::view {
 namespace {
 
 /// Neighbours are searched among this many points before and after in Morton order; more find few nearer ones.
-constexpr std::ptrdiff_t window = 14;
+constexpr std::int64_t window = 14;
 /// The distance to this neighbour, counted from 1, is the spacing; on a square grid it is a diagonal.
 constexpr int neighbor = 8;
 /// Radius of a disc in units of the spacing. Less leaves holes between randomly spaced points.
@@ -23,6 +24,16 @@ constexpr float disc_share = 0.85F;
 constexpr float most_of_scene = 0.12F;
 /// Greatest radius of a disc in units of the median: enough for uneven scans, while outliers stay small.
 constexpr float most_of_others = 4;
+/// Planes are fitted to the neighbours within this many spacings: some twenty of them, so that noise averages out.
+constexpr float plane_reach = 2;
+/// Points lie on a line, which has no normal, if their second variance is below this share of the greatest one: that of
+/// a strip five times as long as wide.
+constexpr float least_width = 0.04F;
+/// Points lie on a surface if the mean of the unit normals around them is longer than this: the middle between 0.5,
+/// which is that of random directions on one side, and 1.
+constexpr float least_agreement = 0.75F;
+/// Radius in units of the median up to which a disc hides what is behind it; the rest of it fills gaps only.
+constexpr float core_share = 1.5F;
 /// Radius of points without enough neighbours, as a share of half the scene's size.
 constexpr float lone_radius = 0.025F;
 
@@ -79,11 +90,70 @@ class Nearest {
   std::array<float, neighbor> squares_;
 };
 
+/// The points that are near one of a list in Morton order and adjacent to it there.
+struct Window {
+  const Placed* first;
+  const Placed* last;
+
+  Window(const std::vector<Placed>& placed, std::int64_t middle)
+      : first(placed.data() + std::max<std::int64_t>(0, middle - window)),
+        last(placed.data() + std::min(std::ssize(placed), middle + window + 1)) {}
+  const Placed* begin() const { return first; }
+  const Placed* end() const { return last; }
+};
+
+/// The unit normal of the plane through those points that lie within `reach` of `center`; 0 if there are fewer than 4,
+/// or if they lie on a line.
+Eigen::Vector3f normalAt(const Eigen::Vector3f& center, const Window& nearby, float reach) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  Eigen::Matrix3f products = Eigen::Matrix3f::Zero();
+  float count = 0;
+  for (const Placed& near : nearby) {
+    const Eigen::Vector3f offset = (near.position - center) / reach;
+    if (!(offset.squaredNorm() < 1)) continue;
+    sum += offset;
+    products += offset * offset.transpose();
+    ++count;
+  }
+  if (count < 4) return Eigen::Vector3f::Zero();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
+  solver.computeDirect(products - sum * sum.transpose() / count);
+  const Eigen::Vector3f& variances = solver.eigenvalues();
+  if (!(variances[1] > least_width * variances[2])) return Eigen::Vector3f::Zero();
+  return solver.eigenvectors().col(0);
+}
+
+/// The mean of the normals within `reach` of a point, turned to one side; 0 if they disagree.
+Eigen::Vector3f meanNormal(const Placed& own, const Window& nearby, float reach,
+                           const std::vector<Eigen::Vector3f>& normals) {
+  Eigen::Vector3f sum = normals[static_cast<std::size_t>(own.point)];
+  float count = 1;
+  for (const Placed& near : nearby) {
+    if (!((near.position - own.position).norm() < reach)) continue;
+    const Eigen::Vector3f& normal = normals[static_cast<std::size_t>(near.point)];
+    sum += normal.dot(sum) < 0 ? Eigen::Vector3f(-normal) : normal;
+    ++count;
+  }
+  return sum.norm() > least_agreement * count ? sum.normalized() : Eigen::Vector3f::Zero();
+}
+
+std::vector<int> pointsOf(const std::vector<Placed>& placed) {
+  std::vector<int> order;
+  order.reserve(placed.size());
+  for (const Placed& along : placed) order.push_back(along.point);
+  return order;
+}
+
 }  // namespace
+
+std::vector<int> mortonOrder(const NormalizedPoints& points) {
+  return pointsOf(alongCurve(points, 0));
+}
 
 Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads) {
   const auto count = static_cast<std::int64_t>(points.finite.size());
   std::vector<float> radii(static_cast<std::size_t>(points.positions.rows()), std::numeric_limits<float>::infinity());
+  std::vector<Eigen::Vector3f> planes(radii.size(), Eigen::Vector3f::Zero());
   // Neighbours on two sides of a large cell's border are far apart in Morton order, but mostly not in both of two
   // shifted orders.
   const std::array<double, 2> shifts = {0, 0.618};
@@ -95,35 +165,44 @@ Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads) {
     forBlocks(threads, count, 8192, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t a = begin; a < end; ++a) {
         const Placed& own = placed[static_cast<std::size_t>(a)];
+        const Window nearby(placed, a);
         Nearest nearest;
-        for (std::int64_t b = std::max<std::int64_t>(0, a - window); b <= std::min(count - 1, a + window); ++b) {
-          const float square = (placed[static_cast<std::size_t>(b)].position - own.position).squaredNorm();
+        for (const Placed& near : nearby) {
+          const float square = (near.position - own.position).squaredNorm();
           if (square > 0) nearest.add(square);
         }
-        float& radius = radii[static_cast<std::size_t>(own.point)];
-        radius = std::min(radius, disc_share * nearest.farthest());
+        const auto i = static_cast<std::size_t>(own.point);
+        if (!(disc_share * nearest.farthest() < radii[i])) continue;
+        radii[i] = disc_share * nearest.farthest();
+        planes[i] = normalAt(own.position, nearby, plane_reach * nearest.farthest());
       }
     });
-  std::vector<int> order;
-  order.reserve(points.finite.size());
-  for (const Placed& along : orders[0]) order.push_back(along.point);
+  std::vector<Eigen::Vector3f> normals(radii.size(), Eigen::Vector3f::Zero());
+  forBlocks(threads, count, 8192, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      const Placed& own = orders[0][static_cast<std::size_t>(a)];
+      const auto i = static_cast<std::size_t>(own.point);
+      if (std::isfinite(radii[i]))
+        normals[i] = meanNormal(own, Window(orders[0], a), plane_reach / disc_share * radii[i], planes);
+    }
+  });
+  std::vector<int> order = pointsOf(orders[0]);
   if (count <= neighbor) {
     std::fill(radii.begin(), radii.end(), lone_radius);
-    return {std::move(radii), std::move(order)};
+    return {std::move(radii), lone_radius, std::move(normals), std::move(order)};
   }
   std::vector<float> sorted;
   for (const int i : points.finite) sorted.push_back(radii[static_cast<std::size_t>(i)]);
   const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * static_cast<double>(count - 1));
   std::nth_element(sorted.begin(), at, sorted.end());
   const float median = *at, most = std::min(most_of_scene, most_of_others * median);
-  for (float& radius : radii) radius = std::isfinite(radius) ? std::min(radius, most) : lone_radius;
-  if (!scene.fields.empty()) {
-    const Eigen::MatrixXd& values = scene.fields.front().values;
-    for (const int i : points.finite)
-      if (std::isnan(values(i, 0)))
-        radii[static_cast<std::size_t>(i)] = std::min(radii[static_cast<std::size_t>(i)], median);
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const bool is_on_surface =
+        !normals[i].isZero() && (scene.fields.empty() || !std::isnan(scene.fields.front().values(row, 0)));
+    radii[i] = std::isfinite(radii[i]) ? std::min(radii[i], is_on_surface ? most : median) : lone_radius;
   }
-  return {std::move(radii), std::move(order)};
+  return {std::move(radii), core_share * median, std::move(normals), std::move(order)};
 }
 
 }  // namespace tufted::view

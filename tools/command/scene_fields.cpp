@@ -1,5 +1,6 @@
 #include "scene_fields.h"
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -53,7 +54,7 @@ FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
                                                             {"status", FieldKind::label},
                                                             {"classification", FieldKind::label},
                                                             {"vectors", FieldKind::vector},
-                                                            {"normals", FieldKind::vector},
+                                                            {"normals", FieldKind::direction},
                                                             {"logmap", FieldKind::coordinates},
                                                             {"uv", FieldKind::coordinates},
                                                             {"color", FieldKind::color},
@@ -62,13 +63,25 @@ FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
                                                             {"hks", FieldKind::positive}};
   const auto kind = meanings.find(name);
   if (kind == meanings.end()) return FieldKind::scalar;
-  const bool fits = (kind->second != FieldKind::vector && kind->second != FieldKind::color) || columns == 3;
-  return fits && (kind->second != FieldKind::coordinates || columns == 2) ? kind->second : FieldKind::scalar;
+  if (kind->second == FieldKind::coordinates) return columns == 2 ? kind->second : FieldKind::scalar;
+  return !tufted::showsAllColumns(kind->second) || columns == 3 ? kind->second : FieldKind::scalar;
 }
 
 std::vector<std::string> columnNamesOf(const std::string& name, Eigen::Index columns) {
-  if (name != "curvature" || (columns != 1 && columns != 4)) return {};
-  return {"mean H", "Gaussian K", "greatest k1", "least k2"};  // names short enough for legends
+  if (name == "logmap") return {"logarithmic map"};
+  if (name == "curvature" && (columns == 1 || columns == 4))
+    return {"mean H", "Gaussian K", "greatest k1", "least k2"};  // names short enough for legends
+  std::vector<std::string> names;
+  for (Eigen::Index k = 0; name == "evecs" && k < columns; ++k) names.push_back("eigenvector " + std::to_string(k));
+  return names;
+}
+
+SceneField placeField(const std::string& name, const tufted::Scene& scene) {
+  if (name == "normal" && scene.normals.rows() > 0) return {name, FieldKind::direction, scene.normals};
+  const std::array<const char*, 6> axes = {"x", "y", "z", "-x", "-y", "-z"};
+  const auto axis = std::find(axes.begin(), axes.end(), name) - axes.begin();
+  if (axis == std::ssize(axes)) return {};
+  return {name, FieldKind::scalar, (axis < 3 ? 1 : -1) * scene.positions.col(axis % 3), scene.unit};
 }
 
 SceneField boundaryField(Eigen::MatrixXd values) {

@@ -169,6 +169,7 @@ int runView(Settings& settings) {
   if (!hasFinitePoint(scene)) throw tufted::IoError(settings.what.string() + ": has no finite point to look at");
   choose(settings.fields, scene);
   lookFromSensor(geometry, look);
+  addPlaceField(look, scene);
   for (tufted::WholeFile& file : prepareLook(scene, look)) file.giveName();
   bar.clear();
   for (const std::string& note : geometry.notes) warn(bar, note);
