@@ -250,7 +250,7 @@ std::string pageOf(const Scene& scene, const PageOptions& options) {
   const std::vector<int> rows = view::thinned(scene, options.most_points);
   Json parts = sceneJson(rows.empty() ? scene : view::sceneOfRows(scene, rows), options, rows, blocks);
   const auto is_finite = [](const auto& position) { return position.allFinite(); };
-  parts["finite"] = std::count_if(scene.positions.rowwise().begin(), scene.positions.rowwise().end(), is_finite);
+  parts["finiteCount"] = std::count_if(scene.positions.rowwise().begin(), scene.positions.rowwise().end(), is_finite);
   const std::string json = jsonInHtml(parts);
   const std::size_t place = view::viewer.find(view::scene_mark);
   std::string page;

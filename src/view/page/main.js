@@ -239,7 +239,7 @@ function fillHeading() {
   const { sides, unit } = stage.positions;
   const title = scene.title || 'Points';
   document.title = title;
-  const parts = [`${rows ? `${count(rows.length)} of ` : ''}${count(scene.finite)} points`];
+  const parts = [`${rows ? `${count(rows.length)} of ` : ''}${count(scene.finiteCount)} points`];
   if (stage.triangles) parts.push(`${count(stage.corners.length / 3)} triangles`);
   parts.push(withUnit(sides.map((side) => number(side * unit, 3)).join(' × '), scene.unit));
   get('heading').append(element('h1', {}, title), element('p', {}, parts.join(' · ')));
