@@ -215,7 +215,7 @@ Json sceneJson(const Scene& scene, const PageOptions& options, const std::vector
     if (scene.positions.rows() > 0) coordinates = scene.positions.col(axis);
     json["positions"].push_back(levelColumn(coordinates, blocks));
   }
-  if (!rows.empty()) json["rows"] = blocks.add(std::vector<std::uint32_t>(rows.begin(), rows.end()));
+  if (!rows.empty()) json["numbers"] = blocks.add(std::vector<std::uint32_t>(rows.begin(), rows.end()));
   if (!points.finite.empty()) json["radii"] = radiusJson(scene, points, blocks);
   if (scene.normals.rows() > 0) json["normals"] = normalBlock(scene.normals, blocks);
   if (scene.triangles.rows() > 0)

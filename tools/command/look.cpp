@@ -290,7 +290,7 @@ void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry&
     geometry.fields.push_back(std::move(field));
   }
   const SceneField& shown = scene.fields[static_cast<std::size_t>(options.field)];
-  if (shown.kind == FieldKind::color) return;
+  if (shown.kind == FieldKind::color || shown.kind == FieldKind::direction) return;
   const bool is_length = shown.kind == FieldKind::vector || shown.kind == FieldKind::coordinates;
   tufted::Field quality = {"quality", tufted::FieldType::float32, 1, {}};
   quality.bytes.resize(sizeof(float) * static_cast<std::size_t>(shown.values.rows()));

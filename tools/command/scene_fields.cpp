@@ -134,25 +134,28 @@ tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry
                               .values = array.values,
                               .column_names = columnNamesOf(array.name, array.values.cols())});
   }
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto takes_part = [&](Eigen::Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    return laplacian.status.empty() || laplacian.status[at] == tufted::PointStatus::active ||
+           laplacian.status[at] == tufted::PointStatus::coincident;
+  };
   for (SceneField& field : scene.fields) {
     if (field.kind == FieldKind::label) continue;
-    for (Eigen::Index i = 0; i < n && !laplacian.status.empty(); ++i) {
-      const tufted::PointStatus status = laplacian.status[static_cast<std::size_t>(i)];
-      if (status != tufted::PointStatus::active && status != tufted::PointStatus::coincident)
-        field.values.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (!takes_part(i)) field.values.row(i).setConstant(nan);
   }
   const auto has_part = [&](std::size_t size) { return n > 0 && static_cast<Eigen::Index>(size) == n; };
   if (has_part(static_cast<std::size_t>(laplacian.M.size()))) {
     Eigen::MatrixXd mass = laplacian.M;
     for (Eigen::Index i = 0; i < n; ++i)
-      if (!(mass(i, 0) > 0)) mass(i, 0) = std::numeric_limits<double>::quiet_NaN();
+      if (!(mass(i, 0) > 0)) mass(i, 0) = nan;
     scene.fields.push_back({"mass", FieldKind::positive, std::move(mass)});
   }
   if (has_part(laplacian.boundary.size())) {
     Eigen::MatrixXd boundary(n, 1);
     for (Eigen::Index i = 0; i < n; ++i)
-      boundary(i, 0) = static_cast<double>(laplacian.boundary[static_cast<std::size_t>(i)]);
+      boundary(i, 0) = takes_part(i) ? static_cast<double>(laplacian.boundary[static_cast<std::size_t>(i)]) : nan;
     scene.fields.push_back(boundaryField(std::move(boundary)));
   }
   if (has_part(laplacian.component.size())) {

@@ -36,8 +36,8 @@ struct SceneField {
   /// N x c, c >= 1; each column is a picture, except for the kinds of two or three columns. NaN and infinite values are
   /// grey.
   Eigen::MatrixXd values;
-  std::string unit = {};                       ///< unit of the values, for the legend; may be empty
-  std::vector<std::string> label_names = {};   ///< names of labels 0, 1, ... in the legend; others show their number
+  std::string unit = {};                      ///< unit of the values, for the legend; may be empty
+  std::vector<std::string> label_names = {};  ///< names of labels 0, 1, ... in the legend; others show their number
   /// What grey means, for the legend; empty: "no value". Of labels it is what negative ones mean, which are lighter.
   std::string no_value = {};
   std::vector<std::string> column_names = {};  ///< names of the columns, for the legend; empty: `name` and a number
@@ -60,9 +60,10 @@ struct Scene {
 /// corner of a triangle that is no point
 void checkScene(const Scene& scene, const char* function);
 
-/// The camera of a picture or a page, by default in perspective: the height of a picture covers an angle of 0.62 radians. What is
-/// not given is chosen: flat scenes are seen from above at an angle, or from the front if they stand upright, all
-/// others from their broad side; the distance is such that the scene fits, ignoring the few points far from all others.
+/// The camera of a picture or a page, by default in perspective: the height of a picture covers an angle of 0.62
+/// radians. What is not given is chosen: flat scenes are seen from above at an angle, or from the front if they stand
+/// upright, all others from their broad side; the distance is such that the scene fits, ignoring the few points far
+/// from all others.
 struct Camera {
   /// Direction from the scene to the eye, of any length; 0: chosen.
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();

@@ -18,7 +18,7 @@ import { element, fillHelp } from './ui.js';
 
 const get = (id) => document.getElementById(id);
 const state = startState();
-let scene, rows, stage, maps, current, legend, picked = null, pinned = null;
+let scene, numbers, stage, maps, current, legend, picked = null, pinned = null;
 
 class Plain extends Error {}
 
@@ -44,7 +44,7 @@ function applyTheme() {
 
 const field = () => scene.fields[state.field];
 /** The number that the maker of the page gives a point: thinned clouds keep those of the whole one. */
-const numberOf = (row) => rows?.[row] ?? row;
+const numberOf = (row) => numbers?.[row] ?? row;
 const pathColor = () => scene.pathColor.map((channel) => channel / 255);
 
 let wanted = 0;
@@ -239,7 +239,7 @@ function fillHeading() {
   const { sides, unit } = stage.positions;
   const title = scene.title || 'Points';
   document.title = title;
-  const parts = [`${rows ? `${count(rows.length)} of ` : ''}${count(scene.finiteCount)} points`];
+  const parts = [`${numbers ? `${count(numbers.length)} of ` : ''}${count(scene.finiteCount)} points`];
   if (stage.triangles) parts.push(`${count(stage.corners.length / 3)} triangles`);
   parts.push(withUnit(sides.map((side) => number(side * unit, 3)).join(' × '), scene.unit));
   get('heading').append(element('h1', {}, title), element('p', {}, parts.join(' · ')));
@@ -255,7 +255,7 @@ async function start() {
   Object.assign(state, { field: scene.start.field, column: scene.start.column });
   if (scene.start.map) state.map[state.field] = scene.start.map;
   const places = await positions(scene.positions);
-  rows = scene.rows === undefined ? null : await integers(scene.rows, Uint32Array);
+  numbers = scene.numbers === undefined ? null : await integers(scene.numbers, Uint32Array);
   const directions = scene.normals === undefined ? null : await integers(scene.normals, Uint8Array);
   const triangles = scene.triangles === undefined ? null : await integers(scene.triangles, Uint32Array);
   stage = new Stage(get('canvas'), places, await radii(scene, places), directions, triangles, pointer);
