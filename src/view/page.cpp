@@ -144,7 +144,7 @@ Json fieldJson(const SceneField& field, PageBlocks& blocks) {
                {"noValue", field.no_value},
                {"columns", std::move(columns)},
                {"columnNames", field.column_names}};
-  const bool is_length = field.kind == FieldKind::vector || field.kind == FieldKind::coordinates;
+  const bool is_length = showsAllColumns(field.kind) && field.kind != FieldKind::color;
   if (field.kind == FieldKind::distance || is_length)
     for (Eigen::Index column = 0; column < (is_length ? 1 : field.values.cols()); ++column)
       json["columns"][static_cast<std::size_t>(column)]["sources"] =

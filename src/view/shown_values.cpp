@@ -28,7 +28,7 @@ ValueRange fitted(FieldKind kind, double low, double high) {
 }  // namespace
 
 Eigen::VectorXd shownValues(const SceneField& field, int column) {
-  if (field.kind == FieldKind::vector || field.kind == FieldKind::coordinates) {
+  if (showsAllColumns(field.kind) && field.kind != FieldKind::color) {
     Eigen::VectorXd lengths(field.values.rows());
     for (Eigen::Index i = 0; i < lengths.size(); ++i) lengths[i] = field.values.row(i).stableNorm();
     return lengths;
