@@ -23,7 +23,7 @@ std::string page(std::string title, const Doubles& points, const Integers& faces
   const std::map<std::string, FieldKind> kinds = {
       {"scalar", FieldKind::scalar}, {"diverging", FieldKind::diverging}, {"distance", FieldKind::distance},
       {"label", FieldKind::label},   {"vector", FieldKind::vector},       {"coordinates", FieldKind::coordinates},
-      {"color", FieldKind::color},   {"positive", FieldKind::positive}};
+      {"color", FieldKind::color},   {"positive", FieldKind::positive},   {"direction", FieldKind::direction}};
   Scene scene = {.title = std::move(title),
                  .positions = pointsOf(points),
                  .triangles = trianglesOf(faces),

@@ -107,6 +107,7 @@ std::string defaultColorMap(FieldKind kind) {
     case FieldKind::label:
       return "labels";
     case FieldKind::color:
+    case FieldKind::direction:
       return "";
     default:
       return "viridis";
@@ -134,8 +135,18 @@ Rgb colorAt(const ColorMap& map, double position) {
 }
 
 Rgb labelColor(const ColorMap& map, double label) {
-  if (!std::isfinite(label) || label < 0) return no_value_color;
+  if (!std::isfinite(label)) return no_value_color;
+  if (label < 0) return none_color;
   return map.colors[static_cast<std::size_t>(std::fmod(label, static_cast<double>(map.colors.size())))];
+}
+
+Rgb directionColor(const Eigen::Vector3d& direction) {
+  const double length = direction.stableNorm();
+  if (!std::isfinite(length) || !(length > 0)) return no_value_color;
+  Rgb color;
+  for (int k = 0; k < 3; ++k)
+    color[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(127.5 * (1 + direction[k] / length)));
+  return color;
 }
 
 std::array<double, 3> toOklab(const Rgb& color) {

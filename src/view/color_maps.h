@@ -26,9 +26,10 @@ struct ColorMap {
   std::vector<Rgb> colors;
 };
 
-/// The colour of values that are not finite, of negative labels and of points without a value: a grey darker than the
-/// middle of diverging maps.
+/// The colour of values that are not finite: a grey darker than the middle of diverging maps.
 constexpr Rgb no_value_color = {150, 150, 150};
+/// The colour of negative labels, and of surfaces that show no field: a grey that differs from no_value_color.
+constexpr Rgb none_color = {205, 205, 205};
 
 /// All maps, in the order of colorMapNames().
 const std::vector<ColorMap>& colorMaps();
@@ -42,9 +43,13 @@ const ColorMap& colorMap(const std::string& name, const char* function);
 /// no_value_color.
 Rgb colorAt(const ColorMap& map, double position);
 
-/// The colour of an integer in a categorical map, whose colours repeat; no_value_color for negative and infinite values
-/// and NaN.
+/// The colour of an integer in a categorical map, whose colours repeat; none_color for negative values, no_value_color
+/// for infinite ones and NaN.
 Rgb labelColor(const ColorMap& map, double label);
+
+/// The colour of a direction of any length: red, green and blue grow with its parts along x, y and z, as in the normal
+/// maps of computer graphics. no_value_color for 0 and for values that are not finite.
+Rgb directionColor(const Eigen::Vector3d& direction);
 
 /// Converts a colour of sRGB to Oklab (Ottosson 2020, "A perceptual color space for image processing"): lightness from
 /// 0 to 1, green to red, blue to yellow. Distances in it are perceived differences.

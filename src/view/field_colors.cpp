@@ -49,7 +49,8 @@ Rgb FieldColors::colorOf(const std::array<float, 2>& shares) const {
 }
 
 Rgb FieldColors::colorOfPoint(int point) const {
-  if (field == nullptr) return no_value_color;
+  if (field == nullptr) return none_color;
+  if (field->kind == FieldKind::direction) return directionColor(field->values.row(point));
   if (field->kind != FieldKind::color) return labelColor(*map, field->values(point, column));
   Rgb color;
   for (int k = 0; k < 3; ++k) {
@@ -80,11 +81,18 @@ FieldColors colorsOf(const Scene& scene, const PictureOptions& options) {
   const std::string map = options.color_map.empty() ? defaultColorMap(field.kind) : options.color_map;
   if (!map.empty()) colors.map = &colorMap(map, "drawPicture");
   const auto n = static_cast<std::size_t>(field.values.rows());
-  if (field.kind == FieldKind::color) return colors;
+  if (field.kind == FieldKind::color || field.kind == FieldKind::direction) {
+    colors.map = nullptr;
+    for (Eigen::Index i = 0; i < field.values.rows() && !colors.lacks_values; ++i)
+      colors.lacks_values =
+          colors.colorOfPoint(static_cast<int>(i)) == no_value_color && scene.positions.row(i).allFinite();
+    return colors;
+  }
   const bool is_label = colors.map->use == MapUse::categorical;
   const bool is_pair = field.kind == FieldKind::coordinates;
   const Eigen::VectorXd values = shownValues(field, options.column);
   colors.is_logarithmic = isLogarithmic(field.kind);
+  colors.sources = sourcesOf(field.kind, values);
   const ValueRange range = rangesOf(field.kind, values).usual;
   colors.low = range.low;
   colors.high = range.high;
@@ -96,8 +104,9 @@ FieldColors colorsOf(const Scene& scene, const PictureOptions& options) {
   colors.channels.assign(is_pair ? 2 : 1, std::vector<float>(n, std::numeric_limits<float>::quiet_NaN()));
   for (std::size_t i = 0; i < n; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    if (!std::isfinite(values[row]) || (field.kind == FieldKind::label && values[row] < 0)) {
-      colors.lacks_values = true;
+    const bool is_none = field.kind == FieldKind::label && values[row] < 0;
+    if (is_none || !std::isfinite(values[row])) {
+      if (scene.positions.row(row).allFinite()) (is_none ? colors.has_none : colors.lacks_values) = true;
       continue;
     }
     for (std::size_t c = 0; c < colors.channels.size(); ++c)

@@ -12,11 +12,13 @@ namespace tufted::view {
 struct FieldColors {
   const SceneField* field = nullptr;  ///< the field shown; null: none, everything is grey
   int column = 0;                     ///< column of the field
-  const ColorMap* map = nullptr;      ///< null for FieldKind::color
+  const ColorMap* map = nullptr;      ///< null for FieldKind::color and direction
   double low = 0, high = 1;           ///< values at the ends of the map
   bool is_logarithmic = false;        ///< whether values are shown as their logarithms to base 10
   bool lacks_values = false;          ///< whether some points have no value
+  bool has_none = false;              ///< whether some labels are negative
   double step = 0;                    ///< difference of neighbouring isolines; 0: no isolines
+  std::vector<int> sources = {};      ///< points from which distances are measured, to be marked
   /// One channel, or two for coordinates, of N values each, as shares: 0 at `low`, 1 at `high`, NaN without a value.
   /// Floats are blended, and shares need few digits whatever the values.
   std::vector<std::vector<float>> channels;
@@ -29,7 +31,7 @@ struct FieldColors {
   double levelOf(float share) const;
   /// The colour for the shares of all channels.
   Rgb colorOf(const std::array<float, 2>& shares) const;
-  /// The colour of a point whose values cannot be blended: labels and colours.
+  /// The colour of a point whose values cannot be blended: labels, colours and directions.
   Rgb colorOfPoint(int point) const;
   bool isBlended() const { return field != nullptr && !channels.empty(); }
 };

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "view/path_line.h"
 #include "view/shown_values.h"
 #include "view/ticks.h"
 
@@ -99,7 +100,7 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
     y += line_height * em;
   }
   y -= line_height * em;
-  const bool is_bar = colors.map->use != MapUse::categorical;
+  const bool is_bar = colors.map != nullptr && colors.map->use != MapUse::categorical;
   const Ticks ticks = !is_bar                 ? Ticks{}
                       : colors.is_logarithmic ? logarithmicTicksOf(colors.low, colors.high)
                                               : ticksOf(colors.low, colors.high);
@@ -112,19 +113,24 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
   }
   if (!scale.empty()) writeWithin(scale, left, y += line_height * em, em, width, ink, canvas);
   y += em;
-  if (!is_bar) {
+  const auto swatch = [&](const Rgb& color, const std::string& name) {
+    canvas.fill(left, static_cast<int>(y), left + static_cast<int>(bar_width * em), static_cast<int>(y + em), color);
+    writeWithin(name, left + (bar_width + 0.5) * em, y + 0.86 * em, em, width - (bar_width + 0.5) * em, ink, canvas);
+    y += 1.5 * em;
+  };
+  if (colors.field->kind == FieldKind::direction) {
+    const char* const names[] = {"x", "y", "z", "-x", "-y", "-z"};
+    for (int k = 0; k < 6; ++k) swatch(directionColor((k < 3 ? 1 : -1) * Eigen::Vector3d::Unit(k % 3)), names[k]);
+  } else if (!is_bar) {
     const std::set<long long> labels = labelsIn(*colors.field, options.column);
     const auto room = static_cast<std::size_t>(std::max(1.0, (options.height - y - 3 * em) / (1.5 * em)));
     std::size_t count = 0;
     for (const long long label : labels) {
       if (count++ == std::min(room, most_swatches)) break;
-      canvas.fill(left, static_cast<int>(y), left + static_cast<int>(bar_width * em), static_cast<int>(y + em),
-                  labelColor(*colors.map, static_cast<double>(label)));
       const std::vector<std::string>& names = colors.field->label_names;
       const bool is_named = label < static_cast<long long>(names.size());
-      const std::string name = is_named ? names[static_cast<std::size_t>(label)] : std::to_string(label);
-      writeWithin(name, left + (bar_width + 0.5) * em, y + 0.86 * em, em, width - (bar_width + 0.5) * em, ink, canvas);
-      y += 1.5 * em;
+      swatch(labelColor(*colors.map, static_cast<double>(label)),
+             is_named ? names[static_cast<std::size_t>(label)] : std::to_string(label));
     }
     if (labels.size() > count) canvas.text("\u2026", left, y + 0.5 * em, em, ink);
     y += labels.size() > count ? 1.5 * em : 0;
@@ -144,17 +150,21 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
     y = bottom + 0.8 * em;
     if (colors.step > 0) {
       char text[64];
-      std::snprintf(text, sizeof text, "lines: %.3g", colors.step);
+      std::snprintf(text, sizeof text, colors.channels.size() > 1 ? "grid: %.3g" : "lines: %.3g", colors.step);
       writeWithin(text, left, y + em, 0.85 * em, width, ink, canvas);
       y += 1.7 * em;
     }
   }
-  if (!colors.lacks_values) return;
-  canvas.fill(left, static_cast<int>(y), left + static_cast<int>(bar_width * em), static_cast<int>(y + em),
-              no_value_color);
+  if (!colors.sources.empty()) {
+    drawRing({left + 0.5 * bar_width * em, y + 0.5 * em}, em, canvas);
+    writeWithin(colors.sources.size() == 1 ? "source" : "sources", left + (bar_width + 0.5) * em, y + 0.86 * em, em,
+                width - (bar_width + 0.5) * em, ink, canvas);
+    y += 1.5 * em;
+  }
   const std::string& no_value = colors.field->no_value;
-  writeWithin(no_value.empty() ? "no value" : no_value, left + (bar_width + 0.5) * em, y + 0.82 * em, 0.85 * em,
-              width - (bar_width + 0.5) * em, ink, canvas);
+  if (colors.has_none) swatch(none_color, no_value.empty() ? "none" : no_value);
+  if (colors.lacks_values)
+    swatch(no_value_color, no_value.empty() || colors.field->kind == FieldKind::label ? "no value" : no_value);
 }
 
 }  // namespace tufted::view

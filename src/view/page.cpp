@@ -13,6 +13,7 @@
 #include "view/projection.h"
 #include "view/shown_values.h"
 #include "view/spacing.h"
+#include "view/thinning.h"
 #include "view/viewer.h"
 
 namespace tufted {
@@ -66,6 +67,8 @@ const char* nameOf(FieldKind kind) {
       return "coordinates";
     case FieldKind::color:
       return "color";
+    case FieldKind::direction:
+      return "direction";
   }
   return "scalar";
 }
@@ -133,11 +136,19 @@ Json fieldJson(const SceneField& field, PageBlocks& blocks) {
     for (Eigen::Index column = 0; column < field.values.cols(); ++column)
       columns.push_back(field.kind == FieldKind::label ? labelColumn(field.values.col(column), blocks)
                                                        : valueColumn(field, static_cast<int>(column), blocks));
-  Json json = {{"name", field.name},           {"kind", nameOf(field.kind)},
-               {"unit", field.unit},           {"map", defaultColorMap(field.kind)},
-               {"names", field.label_names},   {"noValue", field.no_value},
-               {"columns", std::move(columns)}};
-  const bool is_length = field.kind == FieldKind::vector || field.kind == FieldKind::coordinates;
+  Json json = {{"name", field.name},
+               {"kind", nameOf(field.kind)},
+               {"unit", field.unit},
+               {"map", defaultColorMap(field.kind)},
+               {"names", field.label_names},
+               {"noValue", field.no_value},
+               {"columns", std::move(columns)},
+               {"columnNames", field.column_names}};
+  const bool is_length = showsAllColumns(field.kind) && field.kind != FieldKind::color;
+  if (field.kind == FieldKind::distance || is_length)
+    for (Eigen::Index column = 0; column < (is_length ? 1 : field.values.cols()); ++column)
+      json["columns"][static_cast<std::size_t>(column)]["sources"] =
+          view::sourcesOf(field.kind, view::shownValues(field, static_cast<int>(column)));
   if (is_length) json["ranges"] = rangesJson(view::rangesOf(field.kind, view::shownValues(field, 0)));
   return json;
 }
@@ -178,7 +189,8 @@ Json mapsJson() {
 }
 
 /// The scene as JSON, which refers to the blocks of numbers that are added to `blocks`.
-Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& blocks) {
+/// @param rows indices that the caller gives the points; empty: their own
+Json sceneJson(const Scene& scene, const PageOptions& options, const std::vector<int>& rows, PageBlocks& blocks) {
   const view::NormalizedPoints points = view::normalize(scene, 0);
   const view::Projection seen = view::project(points, options.camera, some_viewport);
   Json json = {{"title", scene.title},
@@ -188,6 +200,7 @@ Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& block
                {"fields", Json::array()},
                {"maps", mapsJson()},
                {"noValue", no_value_color},
+               {"none", none_color},
                {"pathColor", view::path_color},
                {"start",
                 {{"field", options.field},
@@ -195,12 +208,14 @@ Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& block
                  {"map", options.color_map},
                  {"eye", {seen.back.x(), seen.back.y(), seen.back.z()}},
                  {"up", {seen.up.x(), seen.up.y(), seen.up.z()}},
-                 {"zoom", options.camera.zoom}}}};
+                 {"zoom", options.camera.zoom},
+                 {"parallel", options.camera.is_parallel}}}};
   for (int axis = 0; axis < 3; ++axis) {
     Eigen::VectorXd coordinates;  // stays empty without points, when there is no column to map
     if (scene.positions.rows() > 0) coordinates = scene.positions.col(axis);
     json["positions"].push_back(levelColumn(coordinates, blocks));
   }
+  if (!rows.empty()) json["numbers"] = blocks.add(std::vector<std::uint32_t>(rows.begin(), rows.end()));
   if (!points.finite.empty()) json["radii"] = radiusJson(scene, points, blocks);
   if (scene.normals.rows() > 0) json["normals"] = normalBlock(scene.normals, blocks);
   if (scene.triangles.rows() > 0)
@@ -232,7 +247,11 @@ std::string pageOf(const Scene& scene, const PageOptions& options) {
   checkScene(scene, "pageOf");
   checkOptions(scene, options);
   PageBlocks blocks;
-  const std::string json = jsonInHtml(sceneJson(scene, options, blocks));
+  const std::vector<int> rows = view::thinned(scene, options.most_points);
+  Json parts = sceneJson(rows.empty() ? scene : view::sceneOfRows(scene, rows), options, rows, blocks);
+  const auto is_finite = [](const auto& position) { return position.allFinite(); };
+  parts["finiteCount"] = std::count_if(scene.positions.rowwise().begin(), scene.positions.rowwise().end(), is_finite);
+  const std::string json = jsonInHtml(parts);
   const std::size_t place = view::viewer.find(view::scene_mark);
   std::string page;
   page.reserve(view::viewer.size() + json.size() + blocks.html().size() + 100);

@@ -28,6 +28,8 @@ constexpr double end_width = 0.75;
 constexpr double end_rim_width = 1;
 /// The diameter of the hole of the ring, in letter sizes: half of the disc.
 constexpr double ring_hole = 0.35;
+/// The size of a ring that the surface hides, relative to one in front.
+constexpr double hidden_share = 0.6;
 /// A path behind a triangle by up to this share of its longest side still counts as on it: paths run straight between
 /// edges of the cover, which need not be those of the mesh.
 constexpr double sunk_share = 0.05;
@@ -93,6 +95,10 @@ std::vector<Step> stepsOf(const SeenScene& seen) {
   return steps;
 }
 
+void drawDot(const Vector2d& place, double width, const Rgb& color, Canvas& canvas) {
+  canvas.line(place.x(), place.y(), place.x(), place.y(), width, color);
+}
+
 }  // namespace
 
 void drawPath(const SeenScene& seen, double text_size, Canvas& canvas) {
@@ -110,14 +116,23 @@ void drawPath(const SeenScene& seen, double text_size, Canvas& canvas) {
   draw(true, dash_width, path_color);
   draw(false, rim_width, path_rim_color);
   draw(false, line_width, path_color);
-  const auto dot = [&](const Vector2d& place, double width, const Rgb& color) {
-    canvas.line(place.x(), place.y(), place.x(), place.y(), width * text_size, color);
-  };
-  for (const Step* const end : {&steps.front(), &steps.back()}) {
-    dot(end->place, end_rim_width, path_rim_color);
-    dot(end->place, end_width, path_color);
+  drawRing(steps.front().place, text_size, canvas);
+  drawDot(steps.back().place, end_rim_width * text_size, path_rim_color, canvas);
+  drawDot(steps.back().place, end_width * text_size, path_color, canvas);
+}
+
+void drawRing(const Vector2d& place, double text_size, Canvas& canvas) {
+  drawDot(place, end_rim_width * text_size, path_rim_color, canvas);
+  drawDot(place, end_width * text_size, path_color, canvas);
+  drawDot(place, ring_hole * text_size, path_rim_color, canvas);
+}
+
+void drawSources(const SeenScene& seen, const std::vector<int>& sources, double text_size, Canvas& canvas) {
+  for (const int source : sources) {
+    const Vector3d view = seen.views[static_cast<std::size_t>(source)].cast<double>();
+    if (!(view.z() > nearest_depth)) continue;  // also where a position is not finite
+    drawRing(placeOf(seen, view), (isHidden(seen, view) ? hidden_share : 1) * text_size, canvas);
   }
-  dot(steps.front().place, ring_hole, path_rim_color);
 }
 
 }  // namespace tufted::view

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "view/color_maps.h"
 #include "view/samples.h"
 #include "view/text.h"
@@ -14,5 +16,11 @@ constexpr Rgb path_rim_color = {255, 255, 255};
 /// Draws the path of a scene, dashed where the surface hides it, with a ring at its beginning and a disc at its end.
 /// @param text_size size of the picture's letters in pixels, to which widths are proportional
 void drawPath(const SeenScene& seen, double text_size, Canvas& canvas);
+
+/// Draws a ring as at the beginning of a path, which marks a source.
+void drawRing(const Eigen::Vector2d& place, double text_size, Canvas& canvas);
+
+/// Draws rings around points, smaller ones where the surface hides them.
+void drawSources(const SeenScene& seen, const std::vector<int>& sources, double text_size, Canvas& canvas);
 
 }  // namespace tufted::view

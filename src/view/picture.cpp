@@ -47,6 +47,7 @@ Picture drawPicture(const Scene& scene, const PictureOptions& options) {
   Picture picture = view::shade(seen, colors, options);
   view::Canvas canvas(picture);
   if (colors.field != nullptr && colors.field->kind == FieldKind::vector) view::drawArrows(seen, colors, canvas);
+  view::drawSources(seen, colors.sources, layout.text_size, canvas);
   view::drawPath(seen, layout.text_size, canvas);
   view::drawLegend(scene, colors, options, layout, canvas);
   return picture;

@@ -190,6 +190,31 @@ void fit(const NormalizedPoints& points, const std::vector<int>& inside, const V
   }
 }
 
+/// Does the same in parallel projection, where the scale decides what fits. The eye is as far above the highest point
+/// as in perspective, so that depths shade as much.
+void fitParallel(const NormalizedPoints& points, const std::vector<int>& inside, const Viewport& port,
+                 bool keeps_target, Projection& projection) {
+  projection.is_parallel = true;
+  projection.distance = 0;
+  Vector3d low = Vector3d::Constant(inside.empty() ? 0 : 1e9);
+  Vector3d high = -low;
+  for (const int i : inside) {
+    const Vector3d view = projection.toView(points.positions.row(i).transpose());
+    low = low.cwiseMin(view);
+    high = high.cwiseMax(view);
+  }
+  if (!keeps_target) {
+    const Vector3d middle(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), 0);
+    projection.target += middle.x() * projection.right + middle.y() * projection.up;
+    low -= middle;
+    high -= middle;
+  }
+  const Vector3d half = high.cwiseMax(-low);
+  const double scale = std::min((port.right - port.left) / half.x(), (port.bottom - port.top) / half.y());
+  projection.distance = half.z() + 1 / std::tan(half_angle);
+  projection.focal = std::isfinite(scale) && scale > 0 ? 0.5 * fill * scale : projection.focal / projection.distance;
+}
+
 }  // namespace
 
 Vector3d NormalizedPoints::at(const Vector3d& position) const {
@@ -271,7 +296,10 @@ Projection project(const NormalizedPoints& points, const Camera& camera, const V
   projection.focal = 0.5 * port_height / std::tan(half_angle);
   projection.center_x = 0.5 * (viewport.left + viewport.right);
   projection.center_y = 0.5 * (viewport.top + viewport.bottom);
-  if (camera.viewpoint && (camera.look_at || points.finite.empty())) {
+  if (camera.is_parallel) {
+    fitParallel(points, inside, viewport, camera.look_at.has_value(), projection);
+    projection.focal *= camera.zoom;
+  } else if (camera.viewpoint && (camera.look_at || points.finite.empty())) {
     projection.distance = (points.at(*camera.viewpoint) - projection.target).norm();
     if (!(projection.distance > 0)) projection.distance = 1;
   } else if (camera.viewpoint) {

@@ -31,8 +31,9 @@ struct Viewport {
 struct Projection {
   Eigen::Vector3d target, right, up, back;  ///< `back` points to the eye
   double distance = 1;                      ///< distance of the eye from the target
-  double focal = 1;                         ///< samples that a slope of 1 covers
+  double focal = 1;                         ///< samples that a slope of 1 covers; in parallel projection a length of 1
   double center_x = 0, center_y = 0;        ///< place of the target on the screen, in samples
+  bool is_parallel = false;                 ///< whether rays of sight are parallel
 
   /// A position in the axes right, up and away from the eye, which is at 0.
   Eigen::Vector3d toView(const Eigen::Vector3d& position) const {
@@ -43,8 +44,12 @@ struct Projection {
   Eigen::Vector3d turn(const Eigen::Vector3d& direction) const {
     return {direction.dot(right), direction.dot(up), -direction.dot(back)};
   }
-  double screenX(const Eigen::Vector3d& view) const { return center_x + focal * view.x() / view.z(); }
-  double screenY(const Eigen::Vector3d& view) const { return center_y - focal * view.y() / view.z(); }
+  /// Samples that a length of 1 covers at a depth.
+  double scaleAt(double depth) const { return is_parallel ? focal : focal / depth; }
+  double screenX(const Eigen::Vector3d& view) const { return center_x + scaleAt(view.z()) * view.x(); }
+  double screenY(const Eigen::Vector3d& view) const { return center_y - scaleAt(view.z()) * view.y(); }
+  /// The direction in which the eye sees a position.
+  Eigen::Vector3d sight(const Eigen::Vector3d& view) const { return is_parallel ? Eigen::Vector3d::UnitZ() : view; }
 };
 
 /// What is nearer to the eye than this, in normalised coordinates, is not drawn.

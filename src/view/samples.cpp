@@ -36,8 +36,9 @@ constexpr int hole_neighbors = 7;
 /// A sample is behind a disc if it is farther away by more than this many radii; on a steep surface none is.
 constexpr float hole_depth = 4;
 
-void put(Sample& target, float depth, std::uint32_t number) {
-  const Sample sample = static_cast<Sample>(std::bit_cast<std::uint32_t>(depth)) << 32 | number;
+void put(Sample& target, float depth, std::uint32_t number, bool is_rim = false) {
+  const Sample sample =
+      static_cast<Sample>(std::bit_cast<std::uint32_t>(depth)) << 32 | number | (is_rim ? rim_bit : 0);
   const std::atomic_ref<Sample> shared(target);
   Sample seen = shared.load(std::memory_order_relaxed);
   while (sample < seen && !shared.compare_exchange_weak(seen, sample, std::memory_order_relaxed)) {
@@ -59,7 +60,7 @@ void drawDisc(SeenScene& seen, int i) {
   if (!(p.z() > nearest_depth)) return;
   const Vector3d view = p.cast<double>();
   const float reach = seen.screen_radii[static_cast<std::size_t>(i)];
-  const float per_sample = p.z() / static_cast<float>(seen.projection.focal);
+  const auto per_sample = static_cast<float>(1 / seen.projection.scaleAt(view.z()));
   const float radius = reach * per_sample;
   const double x = seen.projection.screenX(view);
   const double y = seen.projection.screenY(view);
@@ -74,6 +75,7 @@ void drawDisc(SeenScene& seen, int i) {
     }
   }
   const float least = least_radius * per_sample;
+  const float core = std::max(seen.core, least);
   const Range columns = around(x, reach, seen.width);
   const Range rows = around(y, reach, seen.height);
   for (int row = rows.low; row < rows.high; ++row) {
@@ -87,7 +89,7 @@ void drawDisc(SeenScene& seen, int i) {
       if (square > radius * radius && flat > least * least) continue;
       const float depth = p.z() + dz + bulge * std::min(square / radius, radius);
       put(seen.samples[static_cast<std::size_t>(row) * seen.width + column], std::max(depth, float(nearest_depth)),
-          static_cast<std::uint32_t>(i));
+          static_cast<std::uint32_t>(i), flat > core * core);
     }
   }
 }
@@ -116,14 +118,14 @@ void drawTriangle(SeenScene& seen, std::int64_t t) {
   } else if (std::all_of(corners, corners + 3, [](const Vector3d& c) { return c.z() <= nearest_depth; })) {
     return;
   }
-  const SeenTriangle triangle(corners[0], corners[1], corners[2]);
+  const SeenTriangle triangle(seen.projection, corners[0], corners[1], corners[2]);
   const auto number = static_cast<std::uint32_t>(seen.scene.positions.rows() + t);
   for (int row = rows.low; row < rows.high; ++row)
     for (int column = columns.low; column < columns.high; ++column) {
       const Vector3d shares = triangle.shares(rayThrough(seen.projection, column, row));
       const bool is_inside = (shares.array() >= 0).all() || (shares.array() <= 0).all();
       if (!is_inside) continue;
-      const double depth = triangle.lengthTo(shares);
+      const double depth = triangle.depthAt(shares);
       if (depth > nearest_depth && depth < 1e30)
         put(seen.samples[static_cast<std::size_t>(row) * seen.width + column], static_cast<float>(depth), number);
     }
@@ -174,7 +176,7 @@ void closeHoles(SeenScene& seen, int threads) {
 
 /// The radius of a point's disc on the screen, in samples.
 float screenRadius(const SeenScene& seen, std::size_t i) {
-  const float wanted = seen.radii[i] * static_cast<float>(seen.projection.focal) / seen.views[i].z();
+  const float wanted = seen.radii[i] * static_cast<float>(seen.projection.scaleAt(seen.views[i].z()));
   return std::clamp(wanted, least_radius, std::max(least_radius, most_of_picture * static_cast<float>(seen.height)));
 }
 
@@ -183,9 +185,9 @@ float screenRadius(const SeenScene& seen, std::size_t i) {
 SeenScene look(const Scene& scene, const NormalizedPoints& points, const Projection& projection, int width, int height,
                int threads) {
   const Eigen::Index n = scene.positions.rows();
-  SeenScene seen = {scene, points, projection, width, height, {}, {}, {}, {}, {}};
+  SeenScene seen = {scene, points, projection, width, height, {}, {}, {}, 0, {}, {}};
   seen.views.assign(static_cast<std::size_t>(n), Vector3f::Zero());
-  if (scene.normals.rows() == n && n > 0) seen.normals.assign(static_cast<std::size_t>(n), Vector3f::Zero());
+  std::vector<Vector3f> normals;
   std::vector<bool> is_corner(static_cast<std::size_t>(n), false);
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k) is_corner[static_cast<std::size_t>(scene.triangles(t, k))] = true;
@@ -195,9 +197,13 @@ SeenScene look(const Scene& scene, const NormalizedPoints& points, const Project
   if (std::any_of(points.finite.begin(), points.finite.end(), is_disc)) {
     Discs all = discsOf(scene, points, threads);
     seen.radii = std::move(all.radii);
+    seen.core = all.core;
+    normals = std::move(all.normals);
     discs = std::move(all.order);
     std::erase_if(discs, [&](int i) { return !is_disc(i); });
   }
+  const bool has_normals = scene.normals.rows() == n && n > 0;
+  if (has_normals || !normals.empty()) seen.normals.assign(static_cast<std::size_t>(n), Vector3f::Zero());
   seen.screen_radii.assign(static_cast<std::size_t>(n), 0);
   forBlocks(threads, static_cast<std::int64_t>(points.finite.size()), block_size,
             [&](std::int64_t begin, std::int64_t end) {
@@ -207,9 +213,10 @@ SeenScene look(const Scene& scene, const NormalizedPoints& points, const Project
                 const Vector3d view = projection.toView(points.positions.row(i).transpose());
                 seen.views[at] = view.cast<float>();
                 seen.screen_radii[at] = screenRadius(seen, at);
-                if (seen.normals.empty() || !scene.normals.row(i).allFinite()) continue;
-                const Vector3d normal = projection.turn(Vector3d(scene.normals.row(i)).stableNormalized());
-                seen.normals[at] = (normal.dot(view) > 0 ? Vector3d(-normal) : normal).cast<float>();
+                if (seen.normals.empty() || (has_normals && !scene.normals.row(i).allFinite())) continue;
+                const Vector3d normal = projection.turn(has_normals ? Vector3d(scene.normals.row(i)).stableNormalized()
+                                                                    : normals[at].cast<double>().eval());
+                seen.normals[at] = (normal.dot(projection.sight(view)) > 0 ? Vector3d(-normal) : normal).cast<float>();
               }
             });
   seen.samples.assign(static_cast<std::size_t>(width) * height, nothing);

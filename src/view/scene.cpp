@@ -15,6 +15,7 @@ Eigen::Index columnsOf(FieldKind kind) {
   switch (kind) {
     case FieldKind::vector:
     case FieldKind::color:
+    case FieldKind::direction:
       return 3;
     case FieldKind::coordinates:
       return 2;

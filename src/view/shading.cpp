@@ -40,8 +40,6 @@ constexpr int edge_reach = 3;
 /// Factor of the colour under an isoline.
 constexpr float line_share = 0.35F;
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
-/// The colour of a surface under arrows.
-constexpr Rgb plain_color = {205, 205, 205};
 
 class Shader {
  public:
@@ -86,7 +84,7 @@ class Shader {
     const auto corner = [&](int k) {
       return seen_.views[static_cast<std::size_t>(seen_.scene.triangles(t, k))].cast<double>().eval();
     };
-    return {corner(0), corner(1), corner(2)};
+    return {seen_.projection, corner(0), corner(1), corner(2)};
   }
   /// The barycentric coordinates of a sample in a triangle.
   Vector3d sharesAt(std::uint32_t t, int x, int y) const {
@@ -138,7 +136,7 @@ class Shader {
     const float radius = seen_.screen_radii[numberOf(sample)];
     if (!(radius > blended_radius) || !std::isfinite(own[0])) return own;
     const float depth = depthOf(sample);
-    const float tolerance = same_surface * radius * depth / static_cast<float>(seen_.projection.focal);
+    const float tolerance = same_surface * radius / static_cast<float>(seen_.projection.scaleAt(depth));
     const float step = std::max(radius / blend_steps, 1.0F);
     std::array<int, 2 * blend_steps + 1> offsets;
     std::array<float, 2 * blend_steps + 1> bell;
@@ -168,8 +166,7 @@ class Shader {
   }
 
   Rgb baseColor(int x, int y, std::uint32_t number) const {
-    if (colors_.field == nullptr) return no_value_color;
-    if (colors_.field->kind == FieldKind::vector) return plain_color;
+    if (colors_.field == nullptr || colors_.field->kind == FieldKind::vector) return none_color;
     if (!values_.empty()) return colors_.colorOf(values_[at(x, y)]);
     if (number < points_) return colors_.colorOfPoint(static_cast<int>(number));
     const std::uint32_t t = number - points_;
@@ -195,7 +192,8 @@ class Shader {
       }
     }
     normal = normal.squaredNorm() > 0 ? normal.stableNormalized() : flat;
-    return normal.dot(rayThrough(seen_.projection, x, y).cast<float>()) > 0 ? Vector3f(-normal) : normal;
+    return normal.dot(seen_.projection.sight(rayThrough(seen_.projection, x, y)).cast<float>()) > 0 ? Vector3f(-normal)
+                                                                                                    : normal;
   }
 
   /// The factor by which light and depth shade a sample.

@@ -13,6 +13,8 @@ namespace {
 /// Values within this many interquartile ranges of the quartiles are no outliers (the outer fences of Tukey 1977,
 /// "Exploratory Data Analysis"). Uniformly or normally distributed values have none.
 constexpr double fence = 3;
+/// More sources than this are not marked, because their marks would hide the values.
+constexpr std::size_t most_sources = 64;
 
 ValueRange fitted(FieldKind kind, double low, double high) {
   if (kind == FieldKind::diverging) {
@@ -26,7 +28,7 @@ ValueRange fitted(FieldKind kind, double low, double high) {
 }  // namespace
 
 Eigen::VectorXd shownValues(const SceneField& field, int column) {
-  if (field.kind == FieldKind::vector || field.kind == FieldKind::coordinates) {
+  if (showsAllColumns(field.kind) && field.kind != FieldKind::color) {
     Eigen::VectorXd lengths(field.values.rows());
     for (Eigen::Index i = 0; i < lengths.size(); ++i) lengths[i] = field.values.row(i).stableNorm();
     return lengths;
@@ -35,6 +37,15 @@ Eigen::VectorXd shownValues(const SceneField& field, int column) {
   if (!isLogarithmic(field.kind)) return values;
   for (double& value : values) value = value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
   return values;
+}
+
+std::vector<int> sourcesOf(FieldKind kind, const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::vector<int> sources;
+  if (kind != FieldKind::distance && kind != FieldKind::coordinates) return sources;
+  for (Eigen::Index i = 0; i < values.size() && sources.size() <= most_sources; ++i)
+    if (values[i] == 0) sources.push_back(static_cast<int>(i));
+  if (sources.size() > most_sources) sources.clear();
+  return sources;
 }
 
 ValueRanges rangesOf(FieldKind kind, const Eigen::Ref<const Eigen::VectorXd>& values) {

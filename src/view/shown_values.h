@@ -15,6 +15,11 @@ inline bool isLogarithmic(FieldKind kind) {
 /// The values by which points are coloured: a column, its logarithms, or the lengths of rows; NaN if there is none.
 Eigen::VectorXd shownValues(const SceneField& field, int column);
 
+/// The points from which distances, or coordinates of a logarithmic map, are measured: those whose value is exactly 0.
+/// None if they are so many that they cover a curve or a part of the surface.
+/// @param values as from shownValues()
+std::vector<int> sourcesOf(FieldKind kind, const Eigen::Ref<const Eigen::VectorXd>& values);
+
 /// The values at the ends of a colour map.
 struct ValueRange {
   double low = 0, high = 0;

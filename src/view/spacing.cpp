@@ -1,5 +1,6 @@
 #include "view/spacing.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,15 +15,27 @@ namespace tufted::view {
 namespace {
 
 /// Neighbours are searched among this many points before and after in Morton order; more find few nearer ones.
-constexpr std::ptrdiff_t window = 14;
+constexpr std::int64_t window = 14;
 /// The distance to this neighbour, counted from 1, is the spacing; on a square grid it is a diagonal.
-constexpr int neighbor = 8;
+constexpr std::size_t neighbor = 8;
+/// Points per parallel task.
+constexpr std::int64_t block_size = 8192;
 /// Radius of a disc in units of the spacing. Less leaves holes between randomly spaced points.
 constexpr float disc_share = 0.85F;
 /// Greatest radius of a disc, as a share of half the scene's size.
 constexpr float most_of_scene = 0.12F;
 /// Greatest radius of a disc in units of the median: enough for uneven scans, while outliers stay small.
 constexpr float most_of_others = 4;
+/// Planes are fitted to the neighbours within this many spacings: some twenty of them, so that noise averages out.
+constexpr float plane_reach = 2;
+/// Points lie on a line, which has no normal, if their second variance is below this share of the greatest one: that of
+/// a strip five times as long as wide.
+constexpr float least_width = 0.04F;
+/// Points lie on a surface if the mean of the unit normals around them is longer than this: the middle between 0.5,
+/// which is that of random directions on one side, and 1.
+constexpr float least_agreement = 0.75F;
+/// Radius in units of the median up to which a disc hides what is behind it; the rest of it fills gaps only.
+constexpr float core_share = 1.5F;
 /// Radius of points without enough neighbours, as a share of half the scene's size.
 constexpr float lone_radius = 0.025F;
 
@@ -79,11 +92,124 @@ class Nearest {
   std::array<float, neighbor> squares_;
 };
 
+/// The places of the points that are near one of a list in Morton order and adjacent to it there.
+struct Window {
+  std::size_t begin, end;
+
+  Window(std::int64_t count, std::int64_t middle)
+      : begin(static_cast<std::size_t>(std::max<std::int64_t>(0, middle - window))),
+        end(static_cast<std::size_t>(std::min(count, middle + window + 1))) {}
+};
+
+/// The unit normal of the plane through those points that lie within `reach` of `center`; 0 if there are fewer than 4,
+/// or if they lie on a line.
+Eigen::Vector3f normalAt(const Eigen::Vector3f& center, const std::vector<Placed>& placed, const Window& nearby,
+                         float reach) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  Eigen::Matrix3f products = Eigen::Matrix3f::Zero();
+  float count = 0;
+  for (std::size_t k = nearby.begin; k < nearby.end; ++k) {
+    const Eigen::Vector3f offset = (placed[k].position - center) / reach;
+    if (!(offset.squaredNorm() < 1)) continue;
+    sum += offset;
+    products += offset * offset.transpose();
+    ++count;
+  }
+  if (count < 4) return Eigen::Vector3f::Zero();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
+  solver.computeDirect(products - sum * sum.transpose() / count);
+  const Eigen::Vector3f& variances = solver.eigenvalues();
+  if (!(variances[1] > least_width * variances[2])) return Eigen::Vector3f::Zero();
+  return solver.eigenvectors().col(0);
+}
+
+/// The mean of the normals within `reach` of a point, turned to one side; 0 if they disagree.
+/// @param normals of all points, in the order of `placed`
+Eigen::Vector3f meanNormal(std::size_t own, const std::vector<Placed>& placed, const Window& nearby, float reach,
+                           const std::vector<Eigen::Vector3f>& normals) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  float count = 0;
+  for (std::size_t k = nearby.begin; k < nearby.end; ++k) {
+    if (!((placed[k].position - placed[own].position).norm() < reach)) continue;
+    sum += normals[k].dot(sum) < 0 ? Eigen::Vector3f(-normals[k]) : normals[k];
+    ++count;
+  }
+  return sum.norm() > least_agreement * count ? sum.normalized() : Eigen::Vector3f::Zero();
+}
+
+/// Computes radius and normal of each point from its neighbours in one Morton order, and keeps those with the least
+/// radius of all orders.
+void measure(const std::vector<Placed>& placed, int threads, Discs& discs) {
+  const std::int64_t count = std::ssize(placed);
+  forBlocks(threads, count, block_size, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      const Placed& own = placed[static_cast<std::size_t>(a)];
+      const Window nearby(count, a);
+      Nearest nearest;
+      for (std::size_t k = nearby.begin; k < nearby.end; ++k) {
+        const float square = (placed[k].position - own.position).squaredNorm();
+        if (square > 0) nearest.add(square);
+      }
+      const auto i = static_cast<std::size_t>(own.point);
+      if (!(disc_share * nearest.farthest() < discs.radii[i])) continue;
+      discs.radii[i] = disc_share * nearest.farthest();
+      discs.normals[i] = normalAt(own.position, placed, nearby, plane_reach * nearest.farthest());
+    }
+  });
+}
+
+/// Replaces each normal by the mean around it.
+void smoothNormals(const std::vector<Placed>& placed, int threads, Discs& discs) {
+  std::vector<Eigen::Vector3f> along;  // in the order of `placed`, so that those of a window are adjacent in memory
+  along.reserve(placed.size());
+  for (const Placed& one : placed) along.push_back(discs.normals[static_cast<std::size_t>(one.point)]);
+  const std::int64_t count = std::ssize(placed);
+  forBlocks(threads, count, block_size, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t a = begin; a < end; ++a) {
+      const auto own = static_cast<std::size_t>(a);
+      const auto i = static_cast<std::size_t>(placed[own].point);
+      const float reach = plane_reach / disc_share * discs.radii[i];
+      if (std::isfinite(reach)) discs.normals[i] = meanNormal(own, placed, Window(count, a), reach, along);
+    }
+  });
+}
+
+/// Limits the radii of outliers, and those of points that lie on no surface.
+void limitRadii(const Scene& scene, const NormalizedPoints& points, Discs& discs) {
+  std::vector<float> sorted;
+  for (const int i : points.finite) sorted.push_back(discs.radii[static_cast<std::size_t>(i)]);
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), at, sorted.end());
+  const float median = *at, most = std::min(most_of_scene, most_of_others * median);
+  for (std::size_t i = 0; i < discs.radii.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const bool is_on_surface =
+        !discs.normals[i].isZero() && (scene.fields.empty() || !std::isnan(scene.fields.front().values(row, 0)));
+    float& radius = discs.radii[i];
+    radius = std::isfinite(radius) ? std::min(radius, is_on_surface ? most : median) : lone_radius;
+  }
+  discs.core = core_share * median;
+}
+
+std::vector<int> pointsOf(const std::vector<Placed>& placed) {
+  std::vector<int> order;
+  order.reserve(placed.size());
+  for (const Placed& one : placed) order.push_back(one.point);
+  return order;
+}
+
 }  // namespace
 
+std::vector<int> mortonOrder(const NormalizedPoints& points) {
+  return pointsOf(alongCurve(points, 0));
+}
+
 Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads) {
-  const auto count = static_cast<std::int64_t>(points.finite.size());
-  std::vector<float> radii(static_cast<std::size_t>(points.positions.rows()), std::numeric_limits<float>::infinity());
+  const auto n = static_cast<std::size_t>(points.positions.rows());
+  Discs discs = {.radii = std::vector<float>(n, std::numeric_limits<float>::infinity()),
+                 .core = lone_radius,
+                 .normals = std::vector<Eigen::Vector3f>(n, Eigen::Vector3f::Zero()),
+                 .order = {}};
   // Neighbours on two sides of a large cell's border are far apart in Morton order, but mostly not in both of two
   // shifted orders.
   const std::array<double, 2> shifts = {0, 0.618};
@@ -91,39 +217,15 @@ Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads) {
   forBlocks(threads, 2, 1, [&](std::int64_t begin, std::int64_t) {
     orders[static_cast<std::size_t>(begin)] = alongCurve(points, shifts[static_cast<std::size_t>(begin)]);
   });
-  for (const std::vector<Placed>& placed : orders)
-    forBlocks(threads, count, 8192, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t a = begin; a < end; ++a) {
-        const Placed& own = placed[static_cast<std::size_t>(a)];
-        Nearest nearest;
-        for (std::int64_t b = std::max<std::int64_t>(0, a - window); b <= std::min(count - 1, a + window); ++b) {
-          const float square = (placed[static_cast<std::size_t>(b)].position - own.position).squaredNorm();
-          if (square > 0) nearest.add(square);
-        }
-        float& radius = radii[static_cast<std::size_t>(own.point)];
-        radius = std::min(radius, disc_share * nearest.farthest());
-      }
-    });
-  std::vector<int> order;
-  order.reserve(points.finite.size());
-  for (const Placed& along : orders[0]) order.push_back(along.point);
-  if (count <= neighbor) {
-    std::fill(radii.begin(), radii.end(), lone_radius);
-    return {std::move(radii), std::move(order)};
+  discs.order = pointsOf(orders[0]);
+  if (discs.order.size() <= neighbor) {
+    std::fill(discs.radii.begin(), discs.radii.end(), lone_radius);
+    return discs;
   }
-  std::vector<float> sorted;
-  for (const int i : points.finite) sorted.push_back(radii[static_cast<std::size_t>(i)]);
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * static_cast<double>(count - 1));
-  std::nth_element(sorted.begin(), at, sorted.end());
-  const float median = *at, most = std::min(most_of_scene, most_of_others * median);
-  for (float& radius : radii) radius = std::isfinite(radius) ? std::min(radius, most) : lone_radius;
-  if (!scene.fields.empty()) {
-    const Eigen::MatrixXd& values = scene.fields.front().values;
-    for (const int i : points.finite)
-      if (std::isnan(values(i, 0)))
-        radii[static_cast<std::size_t>(i)] = std::min(radii[static_cast<std::size_t>(i)], median);
-  }
-  return {std::move(radii), std::move(order)};
+  for (const std::vector<Placed>& placed : orders) measure(placed, threads, discs);
+  smoothNormals(orders[0], threads, discs);
+  limitRadii(scene, points, discs);
+  return discs;
 }
 
 }  // namespace tufted::view

@@ -9,13 +9,19 @@ namespace tufted::view {
 /// The discs as which points are drawn.
 struct Discs {
   /// N radii in normalised coordinates, so wide that neighbouring discs leave no hole in the surface, but at most a
-  /// share of the scene and a few times the median, so that a point far from all others is a dot. Discs of points whose
-  /// value in the first field is NaN are at most as large as the median: mostly these lie on no surface, and would hide
-  /// what is behind them.
+  /// share of the scene and a few times the median. Discs of points that lie on no surface, because the normals around
+  /// them disagree or the value in the first field is NaN, are at most as large as the median.
   std::vector<float> radii;
+  /// Radius within which a disc hides what is behind it, so that sparse points do not hide dense ones.
+  float core = 0;
+  /// N unit normals of the surface, of either sign; 0 where there is none.
+  std::vector<Eigen::Vector3f> normals;
   /// The finite points in Morton order, so that points drawn one after another are near in memory.
   std::vector<int> order;
 };
+
+/// The finite points in Morton order.
+std::vector<int> mortonOrder(const NormalizedPoints& points);
 
 Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads);
 

@@ -53,15 +53,18 @@ TEST(ColorMaps, LabelsAreFarApartAndNoneIsTheGreyOfNoValue) {
   ASSERT_GE(map.colors.size(), 12u);
   for (std::size_t i = 0; i < map.colors.size(); ++i) {
     EXPECT_GT(differenceOf(map.colors[i], tufted::no_value_color), 0.08) << i;
+    EXPECT_GT(differenceOf(map.colors[i], tufted::none_color), 0.08) << i;
     for (std::size_t j = 0; j < i; ++j) EXPECT_GT(differenceOf(map.colors[i], map.colors[j]), 0.1) << i << ' ' << j;
   }
 }
 
-TEST(ColorMaps, NegativeAndOddValuesAreGrey) {
+TEST(ColorMaps, NegativeLabelsAndOddValuesAreDifferentGreys) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const ColorMap& labels = tufted::colorMap("labels", "test");
-  for (const double value : {-1.0, nan, infinity, -infinity})
+  EXPECT_EQ(tufted::labelColor(labels, -1), tufted::none_color);
+  EXPECT_GT(differenceOf(tufted::none_color, tufted::no_value_color), 0.1);
+  for (const double value : {nan, infinity, -infinity})
     EXPECT_EQ(tufted::labelColor(labels, value), tufted::no_value_color) << value;
   EXPECT_EQ(tufted::labelColor(labels, 3), tufted::labelColor(labels, 3 + static_cast<double>(labels.colors.size())));
   const ColorMap& viridis = tufted::colorMap("viridis", "test");

@@ -379,6 +379,32 @@ def test_hostile_names(page, dir):
     untroubled(page, dir / "hostile.html")
 
 
+def test_directions_and_greys(page, dir):
+    page.open(dir / "quarters.html")
+    places = [row_at(-0.6, -0.6), row_at(0.6, -0.6), row_at(-0.6, 0.6), row_at(0.6, 0.6)]
+    for color, expected in zip(page.color(*places), [[255, 128, 128], [128, 255, 128], [128, 128, 0], GREY]):
+        close(color, expected)
+    page.set(field=1)
+    close(page.color(places[2])[0], [205, 205, 205])  # a negative label
+    close(page.color(places[3])[0], GREY)
+    assert "none" in legend_of(page) and "no value" in legend_of(page)
+    page.set(field=2)
+    source = page.color(row_at(0, 0))[0]
+    assert source == [255, 255, 255], source  # the hole of the ring
+    untroubled(page, dir / "quarters.html")
+
+
+def test_a_thinned_cloud_keeps_its_numbers(page, dir):
+    page.open(dir / "thinned.html")
+    heading = page.run("return document.getElementById('heading').textContent")
+    assert "of 10,201 points" in heading, heading
+    picked = page.run("return tufted.pick(...tufted.place(1000).slice(0, 2))")
+    assert picked["row"] == 1000 and picked["index"] > 4000, picked
+    x, y, _ = picked["position"]
+    assert picked["index"] == row_at(x, y), picked
+    untroubled(page, dir / "thinned.html")
+
+
 def test_empty(page, dir):
     page.open(dir / "empty.html")
     assert "No point" in page.run("return document.getElementById('message').textContent")

@@ -125,6 +125,22 @@ Scene depthImage() {
   return scene;
 }
 
+/// A square whose quarters have normals along x, y, -z and none, labels 0, 0, -1 and NaN, and a source in the middle.
+Scene quarters() {
+  Scene scene = {.title = "quarters", .positions = square(101)};
+  const Eigen::Index n = scene.positions.rows();
+  Eigen::MatrixXd normals = Eigen::MatrixXd::Zero(n, 3), labels = Eigen::MatrixXd::Zero(n, 1);
+  for (Eigen::Index row = 0; row < n; ++row) {
+    const int quarter = (scene.positions(row, 0) > 0) + 2 * (scene.positions(row, 1) > 0);
+    if (quarter < 3) normals(row, quarter) = quarter == 2 ? -1 : 1;
+    if (quarter > 1) labels(row, 0) = quarter == 2 ? -1 : nan;
+  }
+  scene.fields = {{"normals", FieldKind::direction, normals},
+                  {"boundary", FieldKind::label, labels},
+                  {"far", FieldKind::distance, scene.positions.rowwise().norm()}};
+  return scene;
+}
+
 /// Names that would do harm as HTML or script.
 Scene hostile() {
   Scene scene = plane();
@@ -172,6 +188,9 @@ int main(int argc, char** argv) try {
     tufted::writePage(dir / (std::string("unit-") + unit + ".html"), squareIn(std::stod(unit)), from_above);
   tufted::writePage(dir / "walk.html", walk(), from_above);
   tufted::writePage(dir / "depth.html", depthImage(), {.camera = {.eye = {0.3, -0.8, -1}, .up = {0, -1, 0}}});
+  tufted::writePage(dir / "quarters.html", quarters(), from_above);
+  tufted::writePage(dir / "thinned.html", quarters(),
+                    {.camera = {.eye = {0, 0, 1}, .up = {0, 1, 0}, .is_parallel = true}, .most_points = 2000});
   tufted::writePage(dir / "hostile.html", hostile(), from_above);
   tufted::writePage(dir / "empty.html", {.title = "empty", .positions = Points(0, 3)});
 } catch (const std::exception& error) {

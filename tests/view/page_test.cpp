@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -11,6 +13,7 @@
 #include "tufted/errors.h"
 #include "view/page_block.h"
 #include "view/page_columns.h"
+#include "view/thinning.h"
 
 namespace tufted::page_test {
 namespace {
@@ -168,6 +171,31 @@ TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, Section 10
 
 TEST(Page, OfAMillionRandomPointsAndAFieldIsUnderTwelveMegabytes) {
   EXPECT_LT(pageOf(randomScene(1000000)).size(), 12000000u);
+}
+
+TEST(Page, OfALargeCloudHasAShareOfItsPointsAndAllSources) {
+  Scene scene = {.title = "grid", .positions = Points(40'000, 3)};
+  for (int i = 0; i < 40'000; ++i) scene.positions.row(i) << i % 200, i / 200, 0;
+  scene.positions(7, 0) = nan;
+  scene.fields = {{"distance", FieldKind::distance, Eigen::MatrixXd::Ones(40'000, 1)}};
+  scene.fields[0].values(12'345, 0) = 0;
+  const std::vector<int> rows = view::thinned(scene, 4'000);
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
+  EXPECT_EQ(std::adjacent_find(rows.begin(), rows.end()), rows.end());
+  EXPECT_NEAR(static_cast<double>(rows.size()), 4'000, 1);
+  EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 12'345));
+  EXPECT_FALSE(std::binary_search(rows.begin(), rows.end(), 7));
+  std::array<int, 16> cells = {};  // each part of the cloud keeps its share
+  for (const int row : rows) ++cells[static_cast<std::size_t>(row % 200 / 50 + 4 * (row / 200 / 50))];
+  for (const int cell : cells) EXPECT_NEAR(cell, 250, 12);
+  const std::string page = pageOf(scene, {.most_points = 4'000});
+  EXPECT_EQ(count(page, "\"count\":" + std::to_string(rows.size())), 1u);
+  EXPECT_EQ(count(page, "\"finiteCount\":39999"), 1u);
+  EXPECT_EQ(count(page, "\"sources\":["), 1u);
+  EXPECT_EQ(count(page, "\"numbers\":"), 1u);
+  for (const Eigen::Index all : {0, 40'000}) EXPECT_TRUE(view::thinned(scene, all).empty());
+  scene.triangles = Triangles::Zero(1, 3);
+  EXPECT_TRUE(view::thinned(scene, 4'000).empty());
 }
 
 TEST(Page, LoadsNothing) {

@@ -58,13 +58,19 @@ std::string checkMap(const std::string& name) {
 }
 
 void setCamera(const std::string& text, tufted::Camera& camera) {
+  if (text == "top") {
+    camera.azimuth = -90;
+    camera.elevation = 90;
+    camera.is_parallel = true;
+    return;
+  }
   const std::vector<double> numbers = parseNumbers(text, "--camera");
   const bool valid = (numbers.size() == 2 || numbers.size() == 3) && std::abs(numbers[1]) <= 90 &&
                      std::isfinite(numbers[0]) && (numbers.size() == 2 || (numbers[2] > 0 && numbers[2] <= 1000));
   if (!valid)
     throw CLI::ValidationError("--camera",
                                text +
-                                   " is not AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,ZOOM: degrees, the elevation "
+                                   " is not top, AZIMUTH,ELEVATION or AZIMUTH,ELEVATION,ZOOM: degrees, the elevation "
                                    "from -90 to 90, the zoom positive and at most 1000");
   camera.azimuth = numbers[0];
   camera.elevation = numbers[1];
@@ -163,7 +169,10 @@ tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
 
 void addPictureOptions(CLI::App& command, Look& look) {
   command.add_option("--png", look.png, "Write a picture")->check(notEmpty)->type_name("FILE.png");
-  command.add_option("--color", look.color, "Field to show, or none for the shape alone (the first field)")
+  command
+      .add_option("--color", look.color,
+                  "Field to show; x, y, z or normal for places and directions; none for the shape alone (the first "
+                  "field; without one the height)")
       ->check(notEmpty)
       ->type_name("FIELD");
   addNumber(command, "--column", look.column, 0, std::numeric_limits<int>::max(),
@@ -178,9 +187,10 @@ void addPictureOptions(CLI::App& command, Look& look) {
       ->type_name("NAME");
   const auto set_camera = [&look](const std::string& text) { setCamera(text, look.picture.camera); };
   command
-      .add_option_function<std::string>("--camera", set_camera,
-                                        "Camera: degrees around the up axis, degrees above the horizon, zoom factor "
-                                        "(automatic, zoom 1)")
+      .add_option_function<std::string>(
+          "--camera", set_camera,
+          "Camera: degrees around the up axis, degrees above the horizon, zoom factor; or "
+          "top, a plan in parallel projection (automatic, zoom 1)")
       ->type_name("AZIMUTH,ELEVATION[,ZOOM]");
   addChoice(command, "--up", look.picture.camera.up, axes,
             "Axis that points up in pictures, and towards which the normals of open sheets point (automatic)");
@@ -205,6 +215,8 @@ void checkLook(const Look& look, const std::filesystem::path& out, const std::ve
 
 void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<ShownField> fields) {
   addFields(geometry, fields);
+  for (const char* const axis : {"x", "y", "z"}) fields.push_back({axis});
+  if (!geometry.is_mesh || geometry.normals.rows() > 0) fields.push_back({"normal"});
   if (look.color == "none" || (look.color.empty() && !look.isWanted())) return;
   std::vector<std::string> names;
   for (const ShownField& field : fields) names.push_back(field.name);
@@ -250,6 +262,20 @@ std::vector<tufted::WholeFile> prepareLook(const tufted::Scene& scene, const Loo
   return files;
 }
 
+void addPlaceField(const Look& look, tufted::Scene& scene) {
+  std::string name = look.color;
+  if (name.empty() && scene.fields.empty()) {
+    int axis = 2;
+    const Eigen::Vector3d& up = look.picture.camera.up;
+    if (up.norm() > 0) up.cwiseAbs().maxCoeff(&axis);
+    name = std::string(up[axis] < 0 ? "-" : "") + "xyz"[axis];
+  }
+  const auto is_named = [&](const SceneField& field) { return field.name == name; };
+  if (std::any_of(scene.fields.begin(), scene.fields.end(), is_named)) return;
+  SceneField field = placeField(name, scene);
+  if (!field.name.empty()) scene.fields.push_back(std::move(field));
+}
+
 void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry& geometry) {
   if (look.color.empty() || look.color == "none" || scene.fields.empty()) return;
   const tufted::PictureOptions options = pictureOf(scene, look);
@@ -264,7 +290,7 @@ void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry&
     geometry.fields.push_back(std::move(field));
   }
   const SceneField& shown = scene.fields[static_cast<std::size_t>(options.field)];
-  if (shown.kind == FieldKind::color) return;
+  if (shown.kind == FieldKind::color || shown.kind == FieldKind::direction) return;
   const bool is_length = shown.kind == FieldKind::vector || shown.kind == FieldKind::coordinates;
   tufted::Field quality = {"quality", tufted::FieldType::float32, 1, {}};
   quality.bytes.resize(sizeof(float) * static_cast<std::size_t>(shown.values.rows()));

@@ -56,6 +56,10 @@ void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<
 /// Sets the camera to the sensor of a depth image, unless the options place it.
 void lookFromSensor(const tufted::Geometry& geometry, Look& look);
 
+/// Adds the coordinate or the direction of the normals that --color names, unless the scene has a field of that name,
+/// and the height if the scene has no field.
+void addPlaceField(const Look& look, tufted::Scene& scene);
+
 /// Writes the page and the picture of a look without their names, see WholeFile.
 /// @throws InvalidInput for a field or a column that does not exist, IoError
 std::vector<tufted::WholeFile> prepareLook(const tufted::Scene& scene, const Look& look);
@@ -71,8 +75,9 @@ void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry&
 template <class SceneOf, class Write>
 void writeAndShow(Look& look, tufted::Geometry& geometry, const SceneOf& scene_of, const Write& write) {
   if (!look.isWanted() && look.color.empty()) return write();
-  const tufted::Scene scene = scene_of();
+  tufted::Scene scene = scene_of();
   lookFromSensor(geometry, look);
+  addPlaceField(look, scene);
   std::vector<tufted::WholeFile> files = prepareLook(scene, look);
   colorCopies(scene, look, geometry);
   write();

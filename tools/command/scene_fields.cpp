@@ -1,5 +1,6 @@
 #include "scene_fields.h"
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -53,7 +54,7 @@ FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
                                                             {"status", FieldKind::label},
                                                             {"classification", FieldKind::label},
                                                             {"vectors", FieldKind::vector},
-                                                            {"normals", FieldKind::vector},
+                                                            {"normals", FieldKind::direction},
                                                             {"logmap", FieldKind::coordinates},
                                                             {"uv", FieldKind::coordinates},
                                                             {"color", FieldKind::color},
@@ -62,13 +63,25 @@ FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
                                                             {"hks", FieldKind::positive}};
   const auto kind = meanings.find(name);
   if (kind == meanings.end()) return FieldKind::scalar;
-  const bool fits = (kind->second != FieldKind::vector && kind->second != FieldKind::color) || columns == 3;
-  return fits && (kind->second != FieldKind::coordinates || columns == 2) ? kind->second : FieldKind::scalar;
+  if (kind->second == FieldKind::coordinates) return columns == 2 ? kind->second : FieldKind::scalar;
+  return !tufted::showsAllColumns(kind->second) || columns == 3 ? kind->second : FieldKind::scalar;
 }
 
 std::vector<std::string> columnNamesOf(const std::string& name, Eigen::Index columns) {
-  if (name != "curvature" || (columns != 1 && columns != 4)) return {};
-  return {"mean H", "Gaussian K", "greatest k1", "least k2"};  // names short enough for legends
+  if (name == "logmap") return {"logarithmic map"};
+  if (name == "curvature" && (columns == 1 || columns == 4))
+    return {"mean H", "Gaussian K", "greatest k1", "least k2"};  // names short enough for legends
+  std::vector<std::string> names;
+  for (Eigen::Index k = 0; name == "evecs" && k < columns; ++k) names.push_back("eigenvector " + std::to_string(k));
+  return names;
+}
+
+SceneField placeField(const std::string& name, const tufted::Scene& scene) {
+  if (name == "normal" && scene.normals.rows() > 0) return {name, FieldKind::direction, scene.normals};
+  const std::array<const char*, 6> axes = {"x", "y", "z", "-x", "-y", "-z"};
+  const auto axis = std::find(axes.begin(), axes.end(), name) - axes.begin();
+  if (axis == std::ssize(axes)) return {};
+  return {name, FieldKind::scalar, (axis < 3 ? 1 : -1) * scene.positions.col(axis % 3), scene.unit};
 }
 
 SceneField boundaryField(Eigen::MatrixXd values) {
@@ -121,25 +134,28 @@ tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry
                               .values = array.values,
                               .column_names = columnNamesOf(array.name, array.values.cols())});
   }
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto takes_part = [&](Eigen::Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    return laplacian.status.empty() || laplacian.status[at] == tufted::PointStatus::active ||
+           laplacian.status[at] == tufted::PointStatus::coincident;
+  };
   for (SceneField& field : scene.fields) {
     if (field.kind == FieldKind::label) continue;
-    for (Eigen::Index i = 0; i < n && !laplacian.status.empty(); ++i) {
-      const tufted::PointStatus status = laplacian.status[static_cast<std::size_t>(i)];
-      if (status != tufted::PointStatus::active && status != tufted::PointStatus::coincident)
-        field.values.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (!takes_part(i)) field.values.row(i).setConstant(nan);
   }
   const auto has_part = [&](std::size_t size) { return n > 0 && static_cast<Eigen::Index>(size) == n; };
   if (has_part(static_cast<std::size_t>(laplacian.M.size()))) {
     Eigen::MatrixXd mass = laplacian.M;
     for (Eigen::Index i = 0; i < n; ++i)
-      if (!(mass(i, 0) > 0)) mass(i, 0) = std::numeric_limits<double>::quiet_NaN();
+      if (!(mass(i, 0) > 0)) mass(i, 0) = nan;
     scene.fields.push_back({"mass", FieldKind::positive, std::move(mass)});
   }
   if (has_part(laplacian.boundary.size())) {
     Eigen::MatrixXd boundary(n, 1);
     for (Eigen::Index i = 0; i < n; ++i)
-      boundary(i, 0) = static_cast<double>(laplacian.boundary[static_cast<std::size_t>(i)]);
+      boundary(i, 0) = takes_part(i) ? static_cast<double>(laplacian.boundary[static_cast<std::size_t>(i)]) : nan;
     scene.fields.push_back(boundaryField(std::move(boundary)));
   }
   if (has_part(laplacian.component.size())) {

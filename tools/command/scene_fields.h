@@ -26,6 +26,10 @@ tufted::FieldKind kindOfResult(const std::string& name, Eigen::Index columns);
 /// The names of the columns of a command's result; empty: they are numbered.
 std::vector<std::string> columnNamesOf(const std::string& name, Eigen::Index columns);
 
+/// A field of the points' places: one of the coordinates x, y, z, -x, -y and -z, or `normal`, the directions of the
+/// normals. Without a name if there is none.
+tufted::SceneField placeField(const std::string& name, const tufted::Scene& scene);
+
 /// A field that shows values of tufted::Boundary.
 tufted::SceneField boundaryField(Eigen::MatrixXd values);
 

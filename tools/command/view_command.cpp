@@ -143,10 +143,9 @@ void choose(const std::vector<std::string>& names, Scene& scene) {
   scene.fields = std::move(chosen);
 }
 
-bool hasFinitePoint(const Scene& scene) {
-  for (Eigen::Index i = 0; i < scene.positions.rows(); ++i)
-    if (scene.positions.row(i).allFinite()) return true;
-  return false;
+long long finitePoints(const Scene& scene) {
+  const auto rows = scene.positions.rowwise();
+  return std::count_if(rows.begin(), rows.end(), [](const auto& position) { return position.allFinite(); });
 }
 
 int runView(Settings& settings) {
@@ -167,14 +166,18 @@ int runView(Settings& settings) {
     geometry = tufted::read(settings.what, tufted::ReadAs::automatic, tufted::FileFormat::automatic, progress);
     scene = sceneOfPoints(settings.what.filename().string(), geometry);
   }
-  if (!hasFinitePoint(scene)) throw tufted::IoError(settings.what.string() + ": has no finite point to look at");
+  const long long finite = finitePoints(scene);
+  if (finite == 0) throw tufted::IoError(settings.what.string() + ": has no finite point to look at");
   choose(settings.fields, scene);
   lookFromSensor(geometry, look);
+  addPlaceField(look, scene);
   for (tufted::WholeFile& file : prepareLook(scene, look)) file.giveName();
   bar.clear();
   for (const std::string& note : geometry.notes) warn(bar, note);
   Summary summary;
-  summary.add("points", "%lld", static_cast<long long>(scene.positions.rows()));
+  summary.add("points", "%lld", finite);
+  if (finite < scene.positions.rows())
+    summary.add("left out", "%lld, not finite", static_cast<long long>(scene.positions.rows()) - finite);
   if (scene.triangles.rows() > 0) summary.add("triangles", "%lld", static_cast<long long>(scene.triangles.rows()));
   std::string names;
   for (const SceneField& field : scene.fields) names.append(names.empty() ? "" : ", ").append(field.name);

@@ -14,6 +14,9 @@ struct PageOptions {
   int column = 0;              ///< the column of that field, counted from 0
   std::string color_map = {};  ///< the colour map, one of colorMapNames(); empty: the default of the field's kind
   Camera camera = {};          ///< direction and zoom at first; the page looks at the middle of the scene
+  /// A cloud of more points is thinned evenly to about so many, and the page says so; meshes are not. 0: all points.
+  /// A million points take some 12 MB with one field, and browsers open them in a few seconds.
+  Eigen::Index most_points = 1'000'000;
 };
 
 /// Makes one HTML page that shows a scene in any browser with WebGL 2. It is complete: it loads nothing, works from

@@ -43,8 +43,10 @@ struct Picture {
 };
 
 /// Draws a scene without a screen or a graphics card: triangles, and points that are no corner of one as discs as wide
-/// as the distance to their neighbours. Scenes without normals are shaded by depth (eye-dome lighting, Boucheny 2009).
-/// Values that are not finite, and all points without a field, are grey.
+/// as the distance to their neighbours. Discs of sparse points do not hide dense ones. Light and depth (eye-dome
+/// lighting, Boucheny 2009) shade the surface; where a cloud has no normals, planes through nearby points give them.
+/// Points whose distance, or logarithmic map, is exactly 0 are marked as sources, up to 64 of them. Values that are not
+/// finite are grey; negative labels and all points without a field are light grey.
 /// @throws InvalidInput for the same reasons as checkScene(), and for a field, column or colour map that does not
 /// exist, or a size, camera or range out of range
 Picture drawPicture(const Scene& scene, const PictureOptions& options = {});

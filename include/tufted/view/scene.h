@@ -16,15 +16,17 @@ enum class FieldKind : std::uint8_t {
   positive,     ///< positive values that differ by factors, as areas of a scan: the same, on a logarithmic scale
   diverging,    ///< values around 0, which has the middle colour: eigenvectors, mean curvature
   distance,     ///< lengths >= 0: a sequential colour map from 0, with isolines
-  label,        ///< integers that name things: a colour for each, negative ones grey
+  label,        ///< integers that name things: a colour for each, negative ones light grey
   vector,       ///< three columns, vectors in space: arrows, coloured by their length
   coordinates,  ///< two columns, coordinates on the surface, as of a logarithmic map: a grid of lines
   color,        ///< three columns, red, green and blue from 0 to 255
+  direction,    ///< three columns, unit vectors: a colour for each direction, red, green and blue along x, y and z
 };
 
 /// Whether all columns of a field of this kind are drawn as one picture; otherwise each column is a picture.
 inline bool showsAllColumns(FieldKind kind) {
-  return kind == FieldKind::vector || kind == FieldKind::coordinates || kind == FieldKind::color;
+  return kind == FieldKind::vector || kind == FieldKind::coordinates || kind == FieldKind::color ||
+         kind == FieldKind::direction;
 }
 
 /// Values at the points of a scene, to be shown.
@@ -34,9 +36,10 @@ struct SceneField {
   /// N x c, c >= 1; each column is a picture, except for the kinds of two or three columns. NaN and infinite values are
   /// grey.
   Eigen::MatrixXd values;
-  std::string unit = {};                       ///< unit of the values, for the legend; may be empty
-  std::vector<std::string> label_names = {};   ///< names of labels 0, 1, ... in the legend; others show their number
-  std::string no_value = {};                   ///< what grey means, for the legend; empty: "no value"
+  std::string unit = {};                      ///< unit of the values, for the legend; may be empty
+  std::vector<std::string> label_names = {};  ///< names of labels 0, 1, ... in the legend; others show their number
+  /// What grey means, for the legend; empty: "no value". Of labels it is what negative ones mean, which are lighter.
+  std::string no_value = {};
   std::vector<std::string> column_names = {};  ///< names of the columns, for the legend; empty: `name` and a number
 };
 
@@ -57,9 +60,10 @@ struct Scene {
 /// corner of a triangle that is no point
 void checkScene(const Scene& scene, const char* function);
 
-/// The camera of a picture or a page, in perspective: the height of a picture covers an angle of 0.62 radians. What is
-/// not given is chosen: flat scenes are seen from above at an angle, or from the front if they stand upright, all
-/// others from their broad side; the distance is such that the scene fits, ignoring the few points far from all others.
+/// The camera of a picture or a page, by default in perspective: the height of a picture covers an angle of 0.62
+/// radians. What is not given is chosen: flat scenes are seen from above at an angle, or from the front if they stand
+/// upright, all others from their broad side; the distance is such that the scene fits, ignoring the few points far
+/// from all others.
 struct Camera {
   /// Direction from the scene to the eye, of any length; 0: chosen.
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();
@@ -75,13 +79,16 @@ struct Camera {
   std::optional<Eigen::Vector3d> viewpoint = {};
   /// Position in the middle of the picture; empty: the middle of the scene.
   std::optional<Eigen::Vector3d> look_at = {};
+  /// Whether to draw in parallel projection, as a plan does, at a scale at which the scene fits; `viewpoint` then gives
+  /// the direction only. Pages approach it by a lens of one degree.
+  bool is_parallel = false;
 };
 
 /// The names of the colour maps that pages and pictures accept: viridis, cividis and magma are sequential, coolwarm and
 /// purple_green diverging, and labels has a colour for each of many integers.
 std::vector<std::string> colorMapNames();
 
-/// The name of the default colour map of a kind; empty for FieldKind::color, whose values are colours themselves.
+/// The name of the default colour map of a kind; empty for FieldKind::color and direction, which need none.
 std::string defaultColorMap(FieldKind kind);
 
 }  // namespace tufted

@@ -2,6 +2,12 @@
 import { ClampToEdgeWrapping, DataTexture, LinearFilter } from 'three';
 import { bytesOf } from './data.js';
 
+/** The colour of a direction, see directionColor() of src/view/color_maps.h; null for 0 and NaN. */
+export function directionColor(direction) {
+  const length = Math.hypot(...direction);
+  return length > 0 ? direction.map((part) => Math.round(127.5 * (1 + part / length))) : null;
+}
+
 export const cssColor = (rgb) => `rgb(${rgb.join(' ')})`;
 
 /** The maps of the page: name, use, and colours as a list of [red, green, blue]. */
@@ -24,8 +30,9 @@ export function mapTexture(map) {
   return texture;
 }
 
-/** The colour of a label, in a map whose colours repeat; null for negative labels and NaN. */
-export function labelColor(map, label) {
-  if (!(label >= 0) || !Number.isFinite(label)) return null;
+/** The colour of a label, in a map whose colours repeat; `none` for negative labels, null for NaN. */
+export function labelColor(map, label, none) {
+  if (label < 0) return none;
+  if (!Number.isFinite(label)) return null;
   return map.colors[Math.round(label) % map.colors.length];
 }

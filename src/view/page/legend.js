@@ -20,6 +20,7 @@ export function legendLines(legend) {
     lines.push({ kind: 'swatch', color: label.color, text: label.text });
   if (legend.labels?.length > most_labels) lines.push({ kind: 'note', text: `and ${legend.labels.length - most_labels} more` });
   if (legend.lines) lines.push({ kind: 'note', text: legend.lines });
+  if (legend.none) lines.push({ kind: 'swatch', color: legend.none, text: legend.none_text });
   if (legend.missing > 0) lines.push({ kind: 'swatch', color: legend.no_value, text: legend.missing_text });
   return lines;
 }

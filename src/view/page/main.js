@@ -7,7 +7,7 @@ import { Color, Vector3 } from 'three';
 import { canHaveLines, hasLines, intervalOf, mapOf, startState } from './choices.js';
 import { colorMaps, mapTexture } from './color.js';
 import { doubles, integers, positions, radii } from './data.js';
-import { hasColumns, legendOf, pairsOf, tintsOf, unpacked, valueText } from './fields.js';
+import { hasColumns, isTinted, legendOf, pairsOf, tintsOf, unpacked, valueText } from './fields.js';
 import { count, number, stepped, withUnit } from './format.js';
 import { showLegend } from './legend.js';
 import * as panel from './panel.js';
@@ -18,7 +18,7 @@ import { element, fillHelp } from './ui.js';
 
 const get = (id) => document.getElementById(id);
 const state = startState();
-let scene, stage, maps, current, legend, picked = null, pinned = null;
+let scene, numbers, stage, maps, current, legend, picked = null, pinned = null;
 
 class Plain extends Error {}
 
@@ -43,11 +43,15 @@ function applyTheme() {
 }
 
 const field = () => scene.fields[state.field];
+/** The number that the maker of the page gives a point: thinned clouds keep those of the whole one. */
+const numberOf = (row) => numbers?.[row] ?? row;
+const pathColor = () => scene.pathColor.map((channel) => channel / 255);
 
 let wanted = 0;
 /** Shows the field and column of the state, unless the state changes while they are decoded. */
 async function showField() {
   const turn = ++wanted;
+  stage.showRings(field()?.columns[state.column]?.sources ?? [], pathColor());
   if (!field()) {
     stage.show({});
     stage.set({ mode: 0 });
@@ -60,8 +64,8 @@ async function showField() {
   current = values;
   const one = field();
   const map = mapOf(one, state, maps);
-  if (one.kind === 'label' || one.kind === 'color') {
-    stage.show({ tints: tintsOf(one, values, map) });
+  if (isTinted(one)) {
+    stage.show({ tints: tintsOf(one, values, map, scene.none) });
     stage.set({ mode: 2, is_flat: one.kind === 'label' });
   } else {
     stage.show({ scaled: values.scaled, known: values.known, pairs: one.kind === 'coordinates' ? pairsOf(values) : null });
@@ -77,7 +81,7 @@ function applyColors() {
   stage.showArrows(null);
   let range = [0, 1];
   let interval = 0;
-  if (one.kind !== 'label' && one.kind !== 'color') {
+  if (!isTinted(one)) {
     range = current.ranges[state.range];
     interval = intervalOf(one, state, range, stage.spacing * stage.positions.unit);
     const low = current.toScaled(range[0]);
@@ -102,7 +106,7 @@ function applyColors() {
       });
     }
   }
-  legend = legendOf(one, state.column, current, map, { range, interval, no_value: scene.noValue });
+  legend = legendOf(one, state.column, current, map, { range, interval, no_value: scene.noValue, none: scene.none });
   refresh();
 }
 
@@ -161,7 +165,7 @@ function pick(x, y, reach = 6) {
   if (row < 0) return null;
   const position = stage.positions.axes.map((axis) => axis.at(row));
   const value = field() && current ? valueText(field(), current, row) : null;
-  return { index: row, position, value, number: current?.at?.(row) ?? null };
+  return { index: numberOf(row), row, position, value, number: current?.at?.(row) ?? null };
 }
 
 function showTip() {
@@ -170,7 +174,7 @@ function showTip() {
   get('tip').hidden = get('ring').hidden = !place;
   if (!place) return;
   const axes = stage.positions.axes;
-  const lines = [['point', count(row)],
+  const lines = [['point', count(numberOf(row))],
                  ...['x', 'y', 'z'].map((name, i) => [name, withUnit(stepped(axes[i].at(row), axes[i].step), scene.unit)])];
   if (field() && current) lines.push([field().name, valueText(field(), current, row)]);
   get('tip').replaceChildren(element('dl', {}, ...lines.flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)])));
@@ -190,7 +194,7 @@ const pointer = {
     hover ??= requestAnimationFrame(() => {
       hover = null;
       if (pinned !== null) return;
-      picked = pick(x, y)?.index ?? null;
+      picked = pick(x, y)?.row ?? null;
       showTip();
     });
   },
@@ -200,7 +204,7 @@ const pointer = {
     if (now - last_tap < 350) {
       pinned = null;
       reset();
-    } else pinned = pick(x, y, is_touch ? 14 : 6)?.index ?? null;
+    } else pinned = pick(x, y, is_touch ? 14 : 6)?.row ?? null;
     last_tap = now;
     showTip();
   },
@@ -235,7 +239,7 @@ function fillHeading() {
   const { sides, unit } = stage.positions;
   const title = scene.title || 'Points';
   document.title = title;
-  const parts = [`${count(scene.count)} points`];
+  const parts = [`${numbers ? `${count(numbers.length)} of ` : ''}${count(scene.finiteCount)} points`];
   if (stage.triangles) parts.push(`${count(stage.corners.length / 3)} triangles`);
   parts.push(withUnit(sides.map((side) => number(side * unit, 3)).join(' × '), scene.unit));
   get('heading').append(element('h1', {}, title), element('p', {}, parts.join(' · ')));
@@ -251,17 +255,19 @@ async function start() {
   Object.assign(state, { field: scene.start.field, column: scene.start.column });
   if (scene.start.map) state.map[state.field] = scene.start.map;
   const places = await positions(scene.positions);
+  numbers = scene.numbers === undefined ? null : await integers(scene.numbers, Uint32Array);
   const directions = scene.normals === undefined ? null : await integers(scene.normals, Uint8Array);
   const triangles = scene.triangles === undefined ? null : await integers(scene.triangles, Uint32Array);
   stage = new Stage(get('canvas'), places, await radii(scene, places), directions, triangles, pointer);
   if (scene.path !== undefined)
-    stage.showPath(await doubles(scene.path), scene.pathColor.map((channel) => channel / 255));
+    stage.showPath(await doubles(scene.path), pathColor());
   if (stage.triangles) state.shown = 'triangles';
   fillHelp(get('help'));
   if (matchMedia('(max-width: 760px)').matches) get('panel').classList.add('folded');
   applyTheme();
   fillHeading();
   fillPanel();
+  if (scene.start.parallel) stage.useLongLens();
   stage.resize();
   reset();
   await showField();

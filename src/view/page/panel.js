@@ -1,6 +1,6 @@
 // The panel of settings, which change the state of the page.
 import { canHaveLines, hasLines, mapOf, mapsFor } from './choices.js';
-import { hasColumns } from './fields.js';
+import { hasColumns, isTinted } from './fields.js';
 import { number } from './format.js';
 import { button, check, choice, element, select, slider } from './ui.js';
 
@@ -11,11 +11,11 @@ function fieldSection({ state, scene, maps, field }, { set }) {
   const names = [...scene.fields.map(({ name }, i) => [i, name || `field ${i + 1}`]), [-1, 'none']];
   const parts = [select('field', 'Field', names, state.field, (value) => set({ field: Number(value) }))];
   if (!field) return element('section', {}, ...parts);
-  const has_values = !['color', 'label'].includes(field.kind);
+  const has_values = !isTinted(field);
   if (hasColumns(field))
     parts.push(slider('column', 'Column', { least: 1, most: field.columns.length, step: 1, value: state.column + 1,
                       text: (value) => `${value} of ${field.columns.length}` }, (value) => set({ column: value - 1 })));
-  if (field.kind !== 'color' && mapsFor(field, maps).length > 1)
+  if (field.kind !== 'color' && field.kind !== 'direction' && mapsFor(field, maps).length > 1)
     parts.push(select('map', 'Colours', mapsFor(field, maps).map(({ name }) => [name, name.replaceAll('_', ' ')]), mapOf(field, state, maps).name,
                       (value) => set({ map: { ...state.map, [state.field]: value } })));
   if (has_values)

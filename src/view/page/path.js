@@ -38,18 +38,30 @@ function strokesMesh(strokes, uniforms, options) {
   return mesh;
 }
 
+/** @param hidden strokes that are drawn where something is in front of them; `seen` elsewhere */
+const meshesOf = (hidden, seen, uniforms) => [
+  strokesMesh(hidden, uniforms, { depthFunc: GreaterDepth, defines: { STIPPLED: 1 } }),
+  strokesMesh(seen, uniforms, { depthFunc: LessEqualDepth })];
+
+const dots = (places, width, shade) => places.map((place) => [place, place, width, shade]);
+const rings = (places, color) => [
+  ...dots(places, widths.end_rim, white), ...dots(places, widths.end, color), ...dots(places, widths.hole, white)];
+
+/** Rings around points. @param color numbers from 0 to 1 */
+export function makeRings(rows, { shown }, uniforms, color) {
+  const places = rows.map((row) => [...shown.subarray(3 * row, 3 * row + 3)]);
+  return meshesOf(dots(places, widths.end, color), rings(places, color), uniforms);
+}
+
 /** @param color numbers from 0 to 1 */
 export function makePath(corners, positions, uniforms, color) {
   const places = shownCorners(corners, positions);
   if (places.length === 0) return [];
   const along = (width, shade) => places.slice(1).map((place, i) => [places[i], place, width, shade]);
-  const ends = [places[0], places[places.length - 1]];
-  const dots = (width, shade) => ends.map((place) => [place, place, width, shade]);
+  const [first, last] = [places[0], places[places.length - 1]];
   const seen = [
-    ...along(widths.rim, white), ...along(widths.line, color), ...dots(widths.end_rim, white),
-    ...dots(widths.end, color), [ends[0], ends[0], widths.hole, white],
+    ...along(widths.rim, white), ...along(widths.line, color), ...dots([last], widths.end_rim, white),
+    ...dots([last], widths.end, color), ...rings([first], color),
   ];
-  const hidden = [...along(widths.hidden, color), ...dots(widths.end, color)];
-  return [strokesMesh(hidden, uniforms, { depthFunc: GreaterDepth, defines: { STIPPLED: 1 } }),
-          strokesMesh(seen, uniforms, { depthFunc: LessEqualDepth })];
+  return meshesOf([...along(widths.hidden, color), ...dots([first, last], widths.end, color)], seen, uniforms);
 }

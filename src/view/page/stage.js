@@ -6,13 +6,15 @@ import {
 } from 'three';
 import { makeArrows } from './arrows.js';
 import { Controls } from './controls.js';
-import { makePath } from './path.js';
+import { makePath, makeRings } from './path.js';
 import { domeFragment, domeVertex, pointFragment, pointVertex, triangleFragment, triangleVertex } from './shaders.js';
 
 ColorManagement.enabled = false; // shows the colours of the maps unchanged
 
 /** The width of a point in radii of its disc: less than the disc's own width, because points face the eye. */
 const point_width = 1.3;
+/** The vertical angles of view in degrees, usual and for plans. */
+const usual_angle = 30, long_lens = 1;
 /** The radius of a disc on a square grid, in spacings, see src/view/spacing.cpp. */
 const grid_radius = 0.85 * Math.SQRT2;
 
@@ -21,7 +23,7 @@ export class Stage {
     Object.assign(this, { element, positions, radii, has_normals: Boolean(directions), events });
     this.renderer = new WebGLRenderer({ canvas: element, antialias: true, powerPreference: 'high-performance' });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
-    this.camera = new PerspectiveCamera(30, 1, 0.01, 100);
+    this.camera = new PerspectiveCamera(usual_angle, 1, 0.01, 100);
     this.scene = new Scene();
     this.controls = new Controls(this.camera, element, { ...events, changed: () => { this.draw(); events.changed(); } });
     this.spacing = radii.quartile / grid_radius;
@@ -139,6 +141,21 @@ export class Stage {
     for (const part of makePath(corners, this.positions, this.uniforms, color)) this.scene.add(part);
   }
 
+  /** Marks points by rings, in a colour of numbers from 0 to 1. */
+  showRings(rows, color) {
+    for (const part of this.rings ?? []) {
+      this.scene.remove(part);
+      part.geometry.dispose();
+    }
+    this.rings = rows.length > 0 ? makeRings(rows, this.positions, this.uniforms, color) : [];
+    for (const part of this.rings) this.scene.add(part);
+  }
+
+  /** Sees from afar, so that vertical walls of a plan are lines. */
+  useLongLens() {
+    this.camera.fov = long_lens;
+  }
+
   /** Looks at the middle from a direction, at a distance from which all is seen, divided by `zoom`. */
   look(eye, up, zoom = 1) {
     this.controls.look(eye, up, (toEye) => this.distanceToSee(toEye) / zoom);
@@ -206,7 +223,7 @@ export class Stage {
       // Large points form steps, at which full shading would outline each of them.
       const splat = (this.uniforms.size.value * this.radii.quartile * this.uniforms.pixels.value) / this.controls.distance;
       const softness = Math.min(1, Math.max(0.2, 4 / splat));
-      this.dome_uniforms.strength.value = this.is_lit ? (this.has_normals ? 60 : 160) * softness : 0;
+      this.dome_uniforms.strength.value = this.is_lit ? (this.has_normals ? 60 : 160) * softness * (usual_angle / this.camera.fov) : 0;
       this.renderer.render(this.dome, this.dome_camera);
     }
     this.drawn_pictures = (this.drawn_pictures ?? 0) + 1;
