@@ -131,6 +131,7 @@ int indexOf(const tufted::Scene& scene, const std::string& name) {
   std::vector<std::string> known;
   for (const SceneField& field : scene.fields) known.push_back(field.name);
   if (const std::ptrdiff_t at = tufted::findField(known, name); at >= 0) return static_cast<int>(at);
+  known.insert(known.end(), {"x", "y", "z"});
   std::string all;
   for (const std::string& field : known) all += (all.empty() ? "" : ", ") + field;
   throw tufted::InvalidInput("--color " + name + " is none of " + all + didYouMean(name, known));
