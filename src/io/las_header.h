@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -46,10 +47,10 @@ constexpr std::size_t global_encoding = 6, version = 24, program = 58, header_by
                       box = 179, waves = 227, later_records = 235, count = 247, count_by_return = 255;
 }
 
-/// Stores a value in little endian order.
+/// Stores a value in little endian order over bytes that are there.
 template <class T>
 void put(std::string& bytes, std::size_t byte, T value) {
-  bytes.replace(byte, sizeof(T), reinterpret_cast<const char*>(&value), sizeof(T));
+  std::memcpy(bytes.data() + byte, &value, sizeof(T));
 }
 
 /// Bytes of a point record of format 0 to 10, without extra bytes.

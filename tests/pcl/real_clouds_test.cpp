@@ -1,5 +1,6 @@
 // Depth images and laser scans, read by PCL: the same results as the core's, and every promise to users of PCL.
 #include <gtest/gtest.h>
+#include <pcl/common/point_tests.h>
 #include <pcl/io/pcd_io.h>
 
 #include <algorithm>
