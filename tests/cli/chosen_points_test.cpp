@@ -32,6 +32,15 @@ class ChosenPoints : public Subcommands {
   const std::string ground_ = dir_.write("ground.xyz", sheet({2}));
 };
 
+TEST_F(ChosenPoints, AreWhatInfoDescribes) {
+  const Result result = run({"info", all_, "--where", "classification=2"});
+  EXPECT_NE(result.out.find("chosen          343 of 400 points"), std::string::npos) << result.out;
+  const Result whole = run({"info", all_}), alone = run({"info", ground_});
+  const auto highest = [](const Result& of) { return of.out.substr(of.out.find("highest"), 50); };
+  EXPECT_EQ(highest(result), highest(alone));
+  EXPECT_NE(highest(result), highest(whole));
+}
+
 TEST_F(ChosenPoints, ResultsAreThoseOfAFileOfThesePointsAlone) {
   const std::vector<std::string> choice = {"--where", "classification=2"};
   for (std::vector<std::string> command : commands) {

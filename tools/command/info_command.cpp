@@ -224,6 +224,9 @@ void printContent(const Json& info) {
                 integer(info, "polygons"));
   if (integer(info, "merged_vertices") > 0)
     std::printf("%-15s %lld equal corners\n", "merged", integer(info, "merged_vertices"));
+  if (info.contains("selection"))
+    std::printf("%-15s %lld of %lld points, which the rest describes\n", "chosen", integer(info["selection"], "kept"),
+                integer(info["selection"], "points"));
   if (info.contains("classes"))
     for (const Json& each : info["classes"])
       std::printf("%-15s %lld %s, %lld points\n", "class", integer(each, "number"),
@@ -312,6 +315,7 @@ int runInfo(Settings settings) {
   file.has_normals = geometry.normals.rows() > 0;
   Json info = describeFile(settings, file);
   addContent(geometry, info);
+  if (settings.input.chosen.of > 0) info["selection"] = settings.input.chosen.json();
   const std::string nothing = describePoints(settings, geometry, info);
   info["odd"] = findOddities(info, settings.input.weld);
   bar.clear();
