@@ -51,8 +51,8 @@ Selection selectionOf(const std::vector<std::string>& where, const std::vector<d
   return selection;
 }
 
-Geometry readFile(const std::filesystem::path& path, const std::string& kind, bool weld, const Selection& selection,
-                  const py::object& progress) {
+Geometry readFile(const std::filesystem::path& path, const std::string& kind, bool weld, const py::object& progress,
+                  const Selection& selection) {
   const auto as = chosen<ReadAs>("read: kind", kind,
                                  {{"automatic", ReadAs::automatic}, {"cloud", ReadAs::cloud}, {"mesh", ReadAs::mesh}});
   Geometry geometry =
@@ -186,7 +186,8 @@ void addFiles(py::module_& module) {
       .def_property_readonly("fields", &fieldsOf)
       .def(py::pickle(&stateOf, &geometryFrom));
   py::class_<Selection>(module, "Selection").def(py::init(&selectionOf));
-  module.def("read_file", &readFile);
+  module.def("read_file", &readFile, py::arg("path"), py::arg("kind"), py::arg("weld"), py::arg("progress"),
+             py::arg("selection") = Selection());
   module.def("thin", [](const Doubles& points, double spacing) {
     const auto given = pointsOf(points);
     return owned(run(py::none(), [&](const Progress&) { return thinPoints(given, spacing); }));

@@ -187,7 +187,7 @@ def test_files_of_an_earlier_result_are_never_taken(tmp_path):
     with pytest.raises(tufted.InvalidInput, match="the cover is missing"):
         tufted.load(tmp_path).distance(0)
     second.save(tmp_path, formats="npz")
-    with pytest.raises(tufted.IoError, match="has no points.ply and no points.pcd"):
+    with pytest.raises(tufted.IoError, match="has no points.ply, points.pcd or points.las"):
         tufted.load(tmp_path)
     first.save(tmp_path, formats="ply")
     with pytest.raises(tufted.IoError, match="is of a run that did not write"):

@@ -228,8 +228,8 @@ def read(path, *, kind="automatic", weld=False, where=(), crop=None, polygon=Non
     has_rings = rings is not None and rings is not False
     if image and has_rings:
         raise InvalidInput("read: image and rings are both given, must be one at most")
-    geometry = _tufted.read_file(path, kind, bool(weld), _selection(where, crop, polygon, thin),
-                                 check.callback("read", progress))
+    geometry = _tufted.read_file(path, kind, bool(weld), check.callback("read", progress),
+                                 _selection(where, crop, polygon, thin))
     if geometry.is_mesh:
         for name, value in (("image", image), ("rings", has_rings), ("normals", normals)):
             if value:
