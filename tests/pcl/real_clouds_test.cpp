@@ -89,8 +89,9 @@ std::vector<double> overlaps(const pcl::PointCloud<pcl::PointXYZL>& cloud,
   return result;
 }
 
-TEST_P(RealClouds, PartsAreTheThingsThatAPersonLabelled) {
-  if (std::string(GetParam()).find("mosd") == std::string::npos) GTEST_SKIP() << "without labels";
+using LabelledImages = RealClouds;  // depth images with the field label
+
+TEST_P(LabelledImages, HaveTheThingsThatAPersonLabelledAsParts) {
   const pcl::PointCloud<pcl::PointXYZL>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZL>);
   ASSERT_EQ(pcl::io::loadPCDFile((fs::path(TUFTED_DATA_DIR) / "clouds" / (std::string(GetParam()) + ".pcd")).string(),
                                  *cloud),
@@ -158,6 +159,7 @@ std::string testName(const testing::TestParamInfo<const char*>& info) {
   return info.param;
 }
 
+INSTANTIATE_TEST_SUITE_P(Tables, LabelledImages, testing::Values("mosd_learn0", "mosd_learn1"), testName);
 INSTANTIATE_TEST_SUITE_P(Scans, RealClouds, testing::Values("office1", "cturtle"), testName);
 
 }  // namespace
