@@ -36,8 +36,7 @@ class Parts {
     Buffer<int> left;
     for (int p = 0; p < size(); ++p)
       if (isActive(p) && label_[p] < 0) left.push_back(p);
-    while (grow(left)) {
-    }
+    while (grow(left)) workers_.report("parts", 0);
     takeRest(left);
     return std::move(label_);
   }

@@ -188,6 +188,7 @@ std::optional<FaceAhead> GeodesicTracer::State::startAtVertex(int vertex, const 
     const double by_from = std::max(cross(heading, flat_to) / area, 0.0);
     const double by_to = std::max(cross(flat_from, heading) / area, 0.0);
     const Vector2d flat = by_from * flat_from + by_to * flat_to;
+    if (flat.isZero(0)) continue;  // the heading is on the other side
     const RowVector3d tilted = by_from * from + by_to * to;
     const double cosine = heading.dot(flat.normalized()), slope = tilted.norm() / flat.norm();
     const bool is_nearer = cosine > best_cosine + same_cosine;

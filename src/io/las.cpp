@@ -63,7 +63,22 @@ void readExtra(const LasExtra& extra, std::size_t byte, const Records& records, 
 
 }  // namespace
 
-Geometry lasWithoutPoints(const LasHeader& header) {
+namespace {
+
+/// Of a field of the point format that an extra value replaces, as its name says, only that value is kept: our files
+/// have a field as an extra value if the point format would round it.
+void dropReplaced(const LasHeader& header, std::vector<Field>& fields) {
+  const auto is_replaced = [&](const Field& field) {
+    return std::any_of(header.extras.begin(), header.extras.end(),
+                       [&](const LasExtra& extra) { return extra.name == field.name; });
+  };
+  const auto items = static_cast<std::ptrdiff_t>(lasItems(header.point_format).size());
+  const auto end = std::remove_if(fields.begin(), fields.begin() + items, is_replaced);
+  fields.erase(end, fields.begin() + items);
+}
+
+/// All fields, those of the point format first, without values.
+Geometry withAllFields(const LasHeader& header) {
   Geometry geometry;
   geometry.format = "LAS 1." + std::to_string(header.minor) + ", point format " + std::to_string(header.point_format);
   geometry.las_header = header.kept;
@@ -73,11 +88,19 @@ Geometry lasWithoutPoints(const LasHeader& header) {
   return geometry;
 }
 
+}  // namespace
+
+Geometry lasWithoutPoints(const LasHeader& header) {
+  Geometry geometry = withAllFields(header);
+  dropReplaced(header, geometry.fields);
+  return geometry;
+}
+
 Geometry readLas(const std::filesystem::path& path, std::string_view bytes) {
   static_assert(std::endian::native == std::endian::little, "the values are taken as they lie in the file");
   const LasHeader header = parseLasHeader(path, bytes);
   const std::vector<LasItem> items = lasItems(header.point_format);
-  Geometry geometry = lasWithoutPoints(header);
+  Geometry geometry = withAllFields(header);
   geometry.width = static_cast<int>(header.points);
   geometry.points.resize(header.points, 3);
   for (Field& field : geometry.fields) field.bytes.resize(header.points * field.count * sizeOf(field.type));
@@ -93,6 +116,7 @@ Geometry readLas(const std::filesystem::path& path, std::string_view bytes) {
       byte += sizeOf(extra.type) * extra.count;
     }
   }
+  dropReplaced(header, geometry.fields);
   noteUnread(path, bytes.substr(0, header.end),
              header.body + static_cast<std::size_t>(header.points) * header.record_bytes, geometry);
   return geometry;

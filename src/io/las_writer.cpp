@@ -70,12 +70,20 @@ Stored storedAs(const LasItem& item, const PointColumn& column, std::int64_t row
   return stored;
 }
 
+/// A name that fits: what follows its last '_', which tells equal beginnings apart, stays.
+std::string fittingName(const std::string& name) {
+  if (name.size() <= longest_name) return name;
+  const std::string tail = name.substr(std::max(name.rfind('_'), name.size() - longest_name));
+  return name.substr(0, longest_name - tail.size()) + tail;
+}
+
 /// The description of a column in the record of extra bytes.
 std::string descriptionOf(const PointColumn& column) {
   constexpr char kinds[] = {2, 1, 4, 3, 6, 5, 8, 7, 9, 10};  // of int8, uint8, int16, ..., float64
   std::string text(las_descriptor, '\0');
   text[2] = kinds[static_cast<int>(column.type)];
-  text.replace(4, column.name.size(), column.name);
+  const std::string name = fittingName(column.name);
+  text.replace(4, name.size(), name);
   if (!isInteger(column.type)) {
     text[3] = 1;  // the next value, NaN, stands for no data
     put(text, 40, std::numeric_limits<double>::quiet_NaN());
@@ -87,6 +95,9 @@ class LasWriter {
  public:
   LasWriter(const PointTable& table, const Geometry& geometry) : points_(geometry.points) {
     header_ = geometry.las_header.empty() ? newHeader() : geometry.las_header;
+    if (header_.size() < las_header_bytes || header_[las_byte::point_format] < 0 ||
+        header_[las_byte::point_format] > 10)
+      refuseLas("Geometry::las_header is not that of a LAS file");
     for (int c = 0; c < 3; ++c) {
       std::memcpy(&scale_[c], header_.data() + las_byte::scale + 8 * c, sizeof(double));
       std::memcpy(&offset_[c], header_.data() + las_byte::offset + 8 * c, sizeof(double));
@@ -115,7 +126,7 @@ class LasWriter {
 
  private:
   /// A header for points that were not read from a LAS file. The scale is a power of ten, fine enough that the box of
-  /// the points has 10^9 steps to either side.
+  /// the points has 10^8 to 1.5 * 10^9 steps to either side.
   std::string newHeader() const {
     std::string header(las_header_bytes, '\0');
     header.replace(0, 4, "LASF");
@@ -124,12 +135,14 @@ class LasWriter {
     header[las_byte::version + 1] = 4;
     put<std::uint16_t>(header, las_byte::header_bytes, las_header_bytes);
     Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
-    double reach = 0;
+    double unit = 1;  // the power of ten from half the extent on
     if (points_.rows() > 0) {
-      middle = ((points_.colwise().minCoeff() + points_.colwise().maxCoeff()) / 2).array().round();
-      reach = (points_.rowwise() - middle).cwiseAbs().maxCoeff();
+      const Eigen::RowVector3d least = points_.colwise().minCoeff(), most = points_.colwise().maxCoeff();
+      const double half = (most / 2 - least / 2).maxCoeff();
+      if (half > 0) unit = std::pow(10, std::ceil(std::log10(half)));
+      middle = ((least / 2 + most / 2) / unit).array().round() * unit;
     }
-    const double scale = reach > 0 ? std::pow(10, std::ceil(std::log10(reach)) - 9) : 1;
+    const double scale = std::max(1e-9 * unit, std::numeric_limits<double>::min());
     for (int c = 0; c < 3; ++c) {
       put(header, las_byte::scale + 8 * c, scale);
       put(header, las_byte::offset + 8 * c, middle[c]);
@@ -147,7 +160,6 @@ class LasWriter {
       for (const LasItem& item : items)
         if (stored.column == nullptr) stored = storedAs(item, *column, table.rows());
       if (stored.column == nullptr) {
-        if (column->name.size() > longest_name) refuseLas("the name '" + column->name + "' is longer than 32 bytes");
         stored = {&*column, record_bytes_};
         extras += descriptionOf(*column);
         record_bytes_ += sizeOf(column->type);

@@ -1,5 +1,6 @@
 #include "tufted/io/select.h"
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -23,9 +24,10 @@ void check(const Geometry& geometry, const Selection& selection) {
     throw InvalidInput("select: polygon has " + std::to_string(corners) + " corners, must have at least 3");
   constexpr double farthest = 1e150;  // products of two coordinates stay finite
   for (const Eigen::Vector2d& corner : selection.polygon)
-    if (!(corner.cwiseAbs().maxCoeff() <= farthest))
-      throw InvalidInput("select: polygon has a coordinate " + io::shortestText(corner.cwiseAbs().maxCoeff()) +
-                         ", must be at most 1e150");
+    for (const double number : corner)
+      if (!(std::abs(number) <= farthest))
+        throw InvalidInput("select: polygon has a coordinate " + io::shortestText(number) +
+                           ", must lie in [-1e150, 1e150]");
 }
 
 /// Clears the entries of points that do not satisfy the condition.

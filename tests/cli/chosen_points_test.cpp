@@ -32,6 +32,15 @@ class ChosenPoints : public Subcommands {
   const std::string ground_ = dir_.write("ground.xyz", sheet({2}));
 };
 
+TEST_F(ChosenPoints, HaveHandlesWhoseNumbersAreNoPoints) {
+  // Point 3 of the file hovers and is not chosen, but handle 3 is a handle.
+  const std::string handles = dir_.write("handles.txt", "0 0\n50 1\n99 2\n350 3\n");
+  run({"weights", all_, "--where", "classification=2", "--handles", handles, "--out", in("weights")});
+  EXPECT_NE(runTufted({"weights", all_, "--handles", dir_.write("odd.txt", "0 0.5\n"), "--out", in("odd")})
+                .err.find("the handle is no number counted from 0"),
+            std::string::npos);
+}
+
 TEST_F(ChosenPoints, AreWhatInfoDescribes) {
   const Result result = run({"info", all_, "--where", "classification=2"});
   EXPECT_NE(result.out.find("chosen          343 of 400 points"), std::string::npos) << result.out;

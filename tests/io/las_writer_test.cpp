@@ -157,7 +157,7 @@ TEST_F(LasOutput, ResultsAreExtraBytesAndRecordsOfTheInputStay) {
   EXPECT_EQ(written(read), bytes);
 }
 
-TEST_F(LasOutput, OtherPointsAreStoredToABillionthOfTheirExtent) {
+TEST_F(LasOutput, OtherPointsAreStoredToAHundredMillionthOfTheirExtent) {
   tufted::Geometry geometry = twoPoints();
   for (const char* name : {"red", "green", "blue"})
     geometry.fields.push_back({name, tufted::FieldType::uint8, 1, {std::byte(1), std::byte(255)}});
@@ -170,6 +170,32 @@ TEST_F(LasOutput, OtherPointsAreStoredToABillionthOfTheirExtent) {
   EXPECT_EQ(at<std::uint16_t>(bytes, point + 30), 0x0101);
   EXPECT_EQ(at<std::uint16_t>(bytes, point + 36 + 34), 0xffff);
   EXPECT_EQ(at<std::uint64_t>(bytes, 255), 2u);
+}
+
+TEST_F(LasOutput, APlaceFarFromWholeNumbersHasAFineScaleToo) {
+  for (const double extent : {1e-9, 2.0, 1e9, 1e-320, 1e300}) {
+    tufted::Geometry geometry = twoPoints();
+    const double place = extent < 1e200 ? 0.4 : 0;
+    geometry.points << place, place, place, place + extent, place, place;
+    const Eigen::RowVector3d found = parse(written(geometry)).points.row(1) - parse(written(geometry)).points.row(0);
+    EXPECT_NEAR(found[0], geometry.points(1, 0) - geometry.points(0, 0), 1e-8 * extent + 1e-308) << extent;
+  }
+}
+
+TEST_F(LasOutput, AFieldNamedAsAnItemOfAnotherTypeComesBackAsItWas) {
+  tufted::Geometry geometry = twoPoints();
+  const float values[] = {0.25F, 1.5F};
+  const auto* const bytes = reinterpret_cast<const std::byte*>(values);
+  geometry.fields.push_back({"intensity", tufted::FieldType::float32, 1, {bytes, bytes + sizeof(values)}});
+  const tufted::Geometry read = parse(written(geometry));
+  int count = 0;
+  for (const tufted::Field& field : read.fields) {
+    if (field.name != "intensity") continue;
+    ++count;
+    EXPECT_EQ(field.type, tufted::FieldType::float32);
+    EXPECT_EQ(field.bytes, geometry.fields[0].bytes);
+  }
+  EXPECT_EQ(count, 1);
 }
 
 TEST_F(LasOutput, WhatLasCannotHoldIsRefused) {
@@ -186,6 +212,10 @@ TEST_F(LasOutput, WhatLasCannotHoldIsRefused) {
 TEST_F(LasOutput, LongNamesAreCutAndNoPointsAreFine) {
   const std::string name(40, 'n');
   EXPECT_NE(fieldNamed(parse(written(twoPoints(), {{name, Eigen::Vector2d::Zero()}})), name.substr(0, 32)), nullptr);
+  const tufted::Geometry alike =
+      parse(written(twoPoints(), {{name + "a", Eigen::Vector2d::Zero()}, {name + "b", Eigen::Vector2d::Ones()}}));
+  EXPECT_NE(fieldNamed(alike, name.substr(0, 32)), nullptr);
+  EXPECT_NE(fieldNamed(alike, name.substr(0, 30) + "_2"), nullptr);
   EXPECT_EQ(parse(written(tufted::Geometry())).points.rows(), 0);
 }
 

@@ -239,6 +239,7 @@ TEST(Select, APolygonMayTurnEitherWayAndCrossItself) {
   EXPECT_EQ(inside(points, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}), (std::vector<int>{0, 1}));
   EXPECT_NE(refusal(cloudOf(points), {.polygon = {{0, 0}, {1, 1}}}).find("at least 3"), std::string::npos);
   EXPECT_NE(refusal(cloudOf(points), {.polygon = {{0, 0}, {1, 1}, {nan, 1}}}).find("polygon"), std::string::npos);
+  EXPECT_NE(refusal(cloudOf(points), {.polygon = {{0, 0}, {1, 1}, {1, nan}}}).find("polygon"), std::string::npos);
   EXPECT_NE(refusal(cloudOf(points), {.polygon = {{0, 0}, {1, 1}, {1e200, 1}}}).find("polygon"), std::string::npos);
 }
 

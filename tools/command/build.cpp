@@ -137,6 +137,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
     if (geometry.is_mesh) return tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh);
     laplacian = cloudLaplacian(geometry, input, build);
   } catch (const std::bad_alloc&) {
+    if (geometry.is_mesh) throw;
     const auto points = geometry.points.rows();
     throw tufted::FileTooLarge("out of memory: " +
                                memoryText(input, points, static_cast<double>(points) * least_build_bytes));

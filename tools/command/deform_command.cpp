@@ -54,7 +54,7 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
-  settings.source.shown = {{"displacement"}};
+  settings.source.shown = {{moved_points_field}};
   checkPositions(source);
   checkHasPoints(source);
   const std::vector<Row> rows = readRows(settings.handles_file);

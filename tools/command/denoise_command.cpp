@@ -72,7 +72,7 @@ int runDenoise(Settings& settings) {
   progress("read", 0);
   tufted::Geometry geometry = readInput(settings.input, progress);
   if (geometry.is_mesh) throw tufted::IoError(settings.input.name() + ": is a mesh; --as cloud takes its points alone");
-  checkField(settings.look, geometry, {{"noise"}});
+  checkField(settings.look, geometry, {{"noise"}}, false);
   requirePointsOfLas(geometry, settings.copies, settings.input.name());
   if (interrupted()) throw tufted::Cancelled("cancelled");
   bar.setPoints(geometry.points.rows());

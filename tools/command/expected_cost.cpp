@@ -20,7 +20,7 @@ constexpr double growth_per_doubling = 0.05;  ///< caches help less: time per po
                                               ///< that of 100,000
 
 /// Number of finite points. Missing pixels of a depth image cost next to nothing.
-double countFinite(const tufted::Points& points) {
+double countFinite(const tufted::PointsRef& points) {
   double count = 0;
   for (Eigen::Index i = 0; i < points.rows(); ++i) count += points.row(i).allFinite() ? 1 : 0;
   return count;
@@ -30,15 +30,28 @@ double countFinite(const tufted::Points& points) {
 
 std::vector<int> middleRows(const tufted::Geometry& geometry, int most) {
   const int rows = std::clamp(most / geometry.width, 1, geometry.height);
+  // Of blocks that overlap by half, the one with the most finite points, and of equal ones the nearest to the middle.
+  const int step = std::max(1, rows / 2), middle = (geometry.height - rows) / 2;
+  int best = middle;
+  double most_finite = countFinite(geometry.points.middleRows(middle * geometry.width, rows * geometry.width));
+  for (int first = middle % step; first + rows <= geometry.height; first += step) {
+    const double finite = countFinite(geometry.points.middleRows(first * geometry.width, rows * geometry.width));
+    if (finite < most_finite || (finite == most_finite && std::abs(first - middle) >= std::abs(best - middle)))
+      continue;
+    most_finite = finite;
+    best = first;
+  }
   std::vector<int> sample(static_cast<std::size_t>(rows) * geometry.width);
-  std::iota(sample.begin(), sample.end(), (geometry.height - rows) / 2 * geometry.width);
+  std::iota(sample.begin(), sample.end(), best * geometry.width);
   return sample;
 }
 
 ExpectedCost expectedCost(const tufted::Geometry& geometry, const std::vector<int>& sample, Structure structure,
                           tufted::CloudOptions options) {
-  if (sample.empty()) return {};
   const tufted::Points points = geometry.points(sample, Eigen::all);
+  const double all = static_cast<double>(geometry.points.rows());
+  const double finite = countFinite(points);
+  if (finite == 0) return withFiles(0, 0, all);
   std::optional<tufted::ScanStructure> image;
   if (structure == Structure::image) {
     image = tufted::imageStructure(geometry.width, static_cast<int>(points.rows()) / geometry.width,
@@ -52,8 +65,7 @@ ExpectedCost expectedCost(const tufted::Geometry& geometry, const std::vector<in
     cost.seconds += stage.seconds;
     cost.bytes += static_cast<double>(stage.bytes);
   }
-  const double all = static_cast<double>(geometry.points.rows());
-  const double ratio = countFinite(geometry.points) / std::max(1.0, countFinite(points));
+  const double ratio = countFinite(geometry.points) / finite;
   cost.seconds *= ratio * (1 + growth_per_doubling * std::log2(ratio));
   return withFiles(cost.seconds, cost.bytes * ratio * peak_per_stages, all);
 }

@@ -63,7 +63,7 @@ void check(Settings& settings, const Operator& source) {
   } else {
     if (has_signals) throw tufted::InvalidInput("--positions excludes --field and --values");
     checkHasPoints(source);
-    settings.source.shown = {{"displacement"}};
+    settings.source.shown = {{moved_points_field}};
   }
   if (!settings.wavelength || !settings.pairs.folder.empty()) checkPairs(settings.pairs, source);
 }

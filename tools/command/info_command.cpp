@@ -40,7 +40,8 @@ constexpr const char* footer =
 Nothing is written. Of a cloud of more than 100,000 points only a sample is looked at: the points of eight balls around
 points that are spread over the file, or the middle rows of a depth image. --full looks at all points, which takes about
 as long as a build. A mesh is built.
-  sample        number of points that were looked at; the counts of odd points are those among them
+  sample        number of points that were looked at. Counts of odd points are those among them, but that of points
+                that are not finite is of the whole file
   spacing       median distance to the nearest neighbour (and its 5 % and 95 % quantiles)
   float step    distance between adjacent floats at the largest coordinate; odd above a tenth of the spacing
   on lines      number of points whose nearest neighbours lie on one line, as on the rings of a scanner
@@ -257,7 +258,9 @@ void printContent(const Json& info) {
 /// Explains why no point would be active; otherwise an empty string. Builds a cloud only if that is possible.
 std::string findNothing(const Settings& settings, const tufted::Geometry& geometry,
                         const tufted::CloudDescription& cloud) {
-  const std::int64_t usable = cloud.points - cloud.not_finite - cloud.coincident;
+  // Points that are not finite are counted in the whole cloud, and are not in a sample.
+  const bool is_whole = cloud.sampled == cloud.points;
+  const std::int64_t usable = cloud.sampled - cloud.coincident - (is_whole ? cloud.not_finite : 0);
   if (usable >= 3 && cloud.on_lines < usable) return "";
   tufted::CloudOptions options = settings.cloud;
   options.keep_cover = false;

@@ -26,6 +26,7 @@ void addSelection(CLI::App& command, ChosenPoints& chosen) {
       ->allow_extra_args(false)  // the next word may be FILE
       ->type_name("CONDITION");
   command.add_option("--crop", chosen.crop, "Keep points in this box, sides included; clouds only")
+      ->check(notEmpty)
       ->type_name("X0,Y0,Z0,X1,Y1,Z1");
   command
       .add_option("--polygon", chosen.polygon,
@@ -56,7 +57,11 @@ tufted::Selection selectionOf(const ChosenPoints& chosen) {
 
 void choose(tufted::Geometry& geometry, Input& input) {
   const tufted::Selection selection = selectionOf(input.chosen);
-  if (selection.isEmpty()) return;
+  if (selection.isEmpty()) {
+    // Of an earlier choice: its rows are not those of this file.
+    std::erase_if(geometry.fields, [](const tufted::Field& field) { return field.name == tufted::file_row; });
+    return;
+  }
   if (geometry.is_mesh)
     throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to point clouds, and " + input.name() +
                                " holds a mesh (--as cloud takes its vertices alone)");
@@ -146,7 +151,9 @@ std::optional<tufted::FileHead> readInputHead(const Input& input) {
 void refuseTooMany(const Input& input) {
   if (input.chosen.isAsked()) return;
   const std::optional<tufted::FileHead> head = readInputHead(input);
-  if (!head || head->faces > 0) return;
+  // Missing pixels take less. A file of less than a byte for each point is damaged or well compressed; reading tells.
+  if (!head || head->faces > 0 || head->geometry.height > 1) return;
+  if (std::filesystem::file_size(input.file) < static_cast<std::uintmax_t>(head->points)) return;
   const double needed = static_cast<double>(head->points) * least_build_bytes;
   if (needed > usableMemory()) throw tufted::FileTooLarge(memoryText(input, head->points, needed));
 }

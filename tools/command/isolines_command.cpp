@@ -72,8 +72,7 @@ void check(Settings& settings, const Operator& source) {
   if (settings.field.cols() != 1)
     throw tufted::InvalidInput("the field of --field or --values has " + std::to_string(settings.field.cols()) +
                                " columns, must have one");
-  settings.values =
-      settings.at.empty() ? valuesBetween(settings.field, settings.count) : parseNumbers(settings.at, "--at");
+  if (!settings.at.empty()) settings.values = parseNumbers(settings.at, "--at");
   for (const double value : settings.values)
     if (!std::isfinite(value)) throw tufted::InvalidInput("--at " + settings.at + " is not finite, must be");
   settings.source.shown = {{"values"}};
@@ -84,6 +83,7 @@ Results compute(Settings& settings, Operator& source) {
   for (int i = 0; i < source.points(); ++i)
     if (source.laplacian.status[source.laplacian.representative[i]] != tufted::PointStatus::active)
       settings.field(i, 0) = std::numeric_limits<double>::quiet_NaN();  // also where --component leaves points out
+  if (settings.at.empty()) settings.values = valuesBetween(settings.field, settings.count);
   results.lines = tufted::isolines(source.laplacian.positions, joinedTriangles(source), settings.field.col(0),
                                    settings.values, source.progress);
   const std::vector<tufted::Polyline>& lines = *results.lines;
@@ -122,7 +122,8 @@ void addIsolines(CLI::App& app, Run& run) {
       addOperatorCommand<Settings>(app, run, "isolines", description, footer, compute, check);
   settings->source.needs_cover = true;
   addSignalOptions(*command, settings->signals, "Field, one value per point");
-  CLI::Option* const at = command->add_option("--at", settings->at, "Values of the lines")->type_name("V,...");
+  CLI::Option* const at =
+      command->add_option("--at", settings->at, "Values of the lines")->check(notEmpty)->type_name("V,...");
   addNumber(*command, "--count", settings->count, 1, 10000,
             "Number of values, in equal steps between the least and the greatest of the field (10)")
       ->type_name("K")

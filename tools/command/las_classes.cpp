@@ -33,7 +33,7 @@ std::string nameOfClass(int number) {
                                    "temporal exclusion"};
   constexpr int first_of_users = 64;
   if (number < std::ssize(names)) return names[number];
-  return number < first_of_users ? "reserved" : "of the user";
+  return number < first_of_users ? "reserved" : "user defined";
 }
 
 }  // namespace

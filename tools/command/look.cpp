@@ -214,10 +214,10 @@ void checkLook(const Look& look, const std::filesystem::path& out, const std::ve
     throw tufted::InvalidInput("--png and --view are one file, " + look.png.string());
 }
 
-void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<ShownField> fields) {
+void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<ShownField> fields, bool has_normals) {
   addFields(geometry, fields);
   for (const char* const axis : {"x", "y", "z"}) fields.push_back({axis});
-  if (!geometry.is_mesh || geometry.normals.rows() > 0) fields.push_back({"normal"});
+  if (has_normals && (!geometry.is_mesh || geometry.normals.rows() > 0)) fields.push_back({"normal"});
   if (look.color == "none" || (look.color.empty() && !look.isWanted())) return;
   std::vector<std::string> names;
   for (const ShownField& field : fields) names.push_back(field.name);

@@ -50,8 +50,10 @@ inline const std::vector<ShownField> laplacian_fields = {{"mass"}, {"boundary"},
 
 /// Checks --color and --column before the build.
 /// @param fields that can be shown in addition to those of the file, beginning with the default
+/// @param has_normals whether the picture has those of a cloud; not where points move
 /// @throws InvalidInput for a field or a column that will not exist
-void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<ShownField> fields);
+void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<ShownField> fields,
+                bool has_normals = true);
 
 /// Sets the camera to the sensor of a depth image, unless the options place it.
 void lookFromSensor(const tufted::Geometry& geometry, Look& look);

@@ -42,7 +42,7 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
-  settings.source.shown = {{"displacement"}};
+  settings.source.shown = {{moved_points_field}};
   checkPositions(source);
   checkHasPoints(source);
   if (settings.fixed.empty()) return;

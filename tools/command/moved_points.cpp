@@ -34,7 +34,7 @@ void movePoints(const std::string& name, const Eigen::MatrixXd& positions, Opera
   const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
   results.report["way"] = {{"farthest", farthest}, {"mean", mean}};
   results.summary.add("moved", "points by %.6g in the mean, by %.6g at most", mean, farthest);
-  results.shown = {{.name = "displacement", .values = way}};
+  results.shown = {{.name = moved_points_field, .values = way}};
   results.arrays = {{.name = name, .values = positions}};
   source.geometry.points = positions;
   // Normals and frames belong to the old positions.

@@ -188,7 +188,8 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
     throw tufted::IoError(source.name + ": has no points to look at, which `tufted laplacian --format npz,ply` writes");
   requirePointsOfLas(source.geometry, settings.copies, source.name);
   blameData(source, [&] { check(source); });
-  checkField(settings.look, source.geometry, fieldsOf(settings, files));
+  const bool moves = !settings.shown.empty() && settings.shown.front().name == moved_points_field;
+  checkField(settings.look, source.geometry, fieldsOf(settings, files), !moves);
   bar.setPoints(source.points());
   if (settings.folder.empty())
     source.laplacian =

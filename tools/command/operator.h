@@ -31,6 +31,9 @@ struct Solving {
   std::size_t memory_limit = 0;  ///< bytes, see SolverOptions
 };
 
+/// The field that shows how far points move; the normals of the old positions are not shown with it.
+inline constexpr const char* moved_points_field = "displacement";
+
 /// The options of a command that uses a Laplacian.
 struct OperatorSettings {
   std::string command;           ///< name of the command

@@ -71,7 +71,7 @@ void check(Settings& settings, const Operator& source) {
     settings.source.shown = {{"smoothed", settings.values.cols()}};
   } else {
     checkHasPoints(source);
-    settings.source.shown = {{"displacement"}};
+    settings.source.shown = {{moved_points_field}};
   }
   if (settings.fixed_file.empty()) return;
   if (settings.keep_volume) throw tufted::InvalidInput("--keep-volume excludes --fixed");

@@ -24,7 +24,8 @@ constexpr const char* footer =
   tufted trace scan.ply --source 0 --direction 1,0,0 --length 2 --out line
   tufted trace mesh.off --face 2,1,1,1 --direction 0,0,1 --length 0.5 --out line
 
-The direction is projected into the tangent plane of the source, or into the plane of the triangle that --face names.
+The direction is projected into the tangent plane of the source, or, of a place inside a triangle (--face), into its
+plane.
 The line is straight within triangles, and across an edge when both triangles are unfolded into a plane. It leaves a
 vertex that it meets with equal angles on both sides. It ends early where the surface ends, and at edges of more than
 two triangles. The triangles are those of FILE or, for a cloud, of `tufted laplacian --format triangles`.

@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -42,6 +44,14 @@ struct Settings {
   std::vector<std::string> files() const { return {"weights.npy"}; }
 };
 
+/// The number of the handle in a row, counted from 0.
+int handleOf(const Row& row) {
+  const double number = row.numbers[1];
+  if (!(number >= 0 && number < std::numeric_limits<int>::max() && number == std::floor(number)))
+    throw tufted::IoError(row.name + ": the handle is no number counted from 0");
+  return static_cast<int>(number);
+}
+
 void check(Settings& settings, const Operator& source) {
   std::map<int, std::vector<int>> points;  // points of each handle
   int count = 0;
@@ -50,7 +60,7 @@ void check(Settings& settings, const Operator& source) {
     if (width == 0) width = row.numbers.size();
     if (row.numbers.size() != width || width > 2)
       throw tufted::IoError(row.name + ": is not " + (width == 1 ? "INDEX, as the first line" : "INDEX HANDLE"));
-    const int handle = width == 2 ? indexOf({row.name + ": the handle", {row.numbers[1]}}, source) : count;
+    const int handle = width == 2 ? handleOf(row) : count;
     points[handle].push_back(indexOf({row.name, {row.numbers[0]}}, source));
     ++count;
   }

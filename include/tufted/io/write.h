@@ -85,7 +85,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// green, blue (and alpha) of 8 bits become a packed rgb (rgba). LAS: fields that an item of the point format can hold
 /// become that item, with colours of 8 bits widened to 16; all others are extra bytes, one for each value, with names
 /// of at most 32 bytes and NaN for no data. Geometry::las_header gives the point format (without waves), scale, offset
-/// and variable length records; without it the format is 6, or 7 with colours, and the scale at most 1e-9 of half the
+/// and variable length records; without it the format is 6, or 7 with colours, and the scale at most 1e-8 of half the
 /// extent. LAS holds no triangles.
 ///
 /// All files are written into a hidden folder `dir`/.tufted-XXXXXX, flushed to disk and then renamed one after the
@@ -96,8 +96,8 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// next one does.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
 /// word, the pose of the sensor is not valid, `build_options` or `selection` is no JSON object, or the cover is asked
-/// for and was not kept; if LAS cannot hold a point, which is not finite or out of the range of scale and offset, or more
-/// than 341 values per point; for Format::triangles for the same reasons as surfaceTriangles()
+/// for and was not kept; if LAS cannot hold a point, which is not finite or out of the range of scale and offset, or
+/// more than 341 values per point; for Format::triangles for the same reasons as surfaceTriangles()
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
