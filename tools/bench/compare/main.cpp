@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
       {"lines", "Against the spacing of scan lines", bench::printLines},
       {"sheets", "Of two squares against their distance", bench::printSheets},
       {"orders", "Eigenvalues with other orders of faces around edges", bench::printOrders},
+      {"thick", "Meshes that are not manifold beside tetrahedra that fill a layer around them", bench::printThick},
       {"distance", "Errors of distances on the vertices of real shapes", bench::printDistance},
       {"dataset", "Whether all guarantees hold on the meshes of a folder", bench::printDataset},
   };

@@ -42,6 +42,7 @@ Json printSheets(const Settings& settings);    ///< against the distance of two 
 Json printBoundary(const Settings& settings);  ///< how far harmonic functions leave the range of their pins
 Json printGreen(const Settings& settings);     ///< sizes, times and signs of Green's functions for several k
 Json printOrders(const Settings& settings);    ///< eigenvalues with other orders of faces around edges
+Json printThick(const Settings& settings);     ///< meshes that are not manifold beside tetrahedra that fill a layer
 Json printDistance(const Settings& settings);  ///< errors of distances on the vertices of real shapes
 Json printDataset(const Settings& settings);   ///< whether all guarantees hold on the meshes of a folder
 
