@@ -24,9 +24,9 @@ struct ResultArray {
 
 /// Options of writeResults().
 struct ResultOptions {
-  std::vector<Format> copies = {Format::ply};  ///< copies of the points with the results as fields: ply, pcd, las
-  std::string report = "{}\n";                 ///< content of report.json, a JSON object
-  Progress progress = {};                      ///< called between files; returning false leaves no file
+  std::vector<Format> copies = {Format::ply};       ///< copies of the points with the results as fields: ply, pcd, las
+  std::string report = "{}\n";                      ///< content of report.json, a JSON object
+  Progress progress = {};                           ///< called between files; returning false leaves no file
   std::optional<std::vector<Polyline>> lines = {};  ///< lines on the surface, written as lines.ply and lines.obj
 };
 
@@ -39,7 +39,7 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 ///                          float32; several columns: NAME_0, NAME_1, ... in PLY and LAS, COUNT values in PCD
 ///   file_row.npy           int32, the field of select(), if the points have it
 ///   lines.ply              with options.lines: their points with `value` (float64) and edges between them
-///   lines.obj              with options.lines: an element `l` for each line, of a closed one with its first point again
+///   lines.obj              with options.lines: an element `l` per line, of closed ones with the first point again
 ///   report.json            options.report, and as `files` the names of all files of this result
 /// @param laplacian from which the results were computed; empty, as `Laplacian()`, if there is none: the copies then
 /// have no mass, boundary, status and representative
