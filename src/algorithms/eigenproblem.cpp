@@ -50,7 +50,7 @@ void Eigenproblem::deflate(Eigen::Ref<MatrixXd> x) const {
 
 void Eigenproblem::fillMassless(Eigen::Ref<MatrixXd> x) const {
   if (massless.empty()) return;
-  Selection selection(static_cast<std::size_t>(L.cols()));
+  NumberedPoints selection(static_cast<std::size_t>(L.cols()));
   for (const int i : massless) selection.add(i);
   const Eigen::SimplicialLDLT<LongMatrix> factor(
       lowerTriangle(L, selection, [](int, int, double value) { return value; }));

@@ -23,7 +23,7 @@ class Factor : public Eigen::SimplicialLDLT<LongMatrix> {
 
 std::optional<Eigen::Index> eigenvaluesBelow(const SparseMatrix& L, const VectorXd& mass, double bound,
                                              const std::vector<int>& points, std::size_t memory_limit) try {
-  Selection selection(static_cast<std::size_t>(L.cols()));
+  NumberedPoints selection(static_cast<std::size_t>(L.cols()));
   for (const int i : points) selection.add(i);
   const LongMatrix lower =
       lowerTriangle(L, selection, [&](int i, int j, double value) { return i == j ? value - bound * mass[i] : value; });

@@ -100,8 +100,8 @@ class LinearSystem {
   [[noreturn]] void fail(const std::string& function, const NotConverged& failure) const;
 
   SystemNames names_;
-  LongMatrix lower_;    ///< lower triangle over the unknowns; for a Laplacian only while it is factorised
-  Selection unknowns_;  ///< the points that are solved for
+  LongMatrix lower_;         ///< lower triangle over the unknowns; for a Laplacian only while it is factorised
+  NumberedPoints unknowns_;  ///< the points that are solved for
   std::optional<Components> components_;    ///< for a Laplacian
   std::unique_ptr<PartConstants> joints_;   ///< for a Laplacian with parts joined by tiny weights
   std::vector<int> pinned_;                 ///< for a Laplacian: the first point of each component

@@ -143,7 +143,7 @@ void checkRows(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCh
 /// The lower triangle of D^-1/2 L D^-1/2 + shift of the active points, D = diag(L). The scaling changes no sign of a
 /// pivot and avoids underflow and overflow.
 LongMatrix scaledLower(const Laplacian& laplacian, const VectorXd& diagonal) {
-  Selection active(laplacian.status.size());
+  NumberedPoints active(laplacian.status.size());
   for (int i = 0; i < static_cast<int>(laplacian.status.size()); ++i) {
     if (isActive(laplacian, i)) active.add(i);
   }

@@ -12,13 +12,13 @@ namespace tufted {
 using LongMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
 
 /// Numbers some of the points, in ascending order.
-struct Selection {
+struct NumberedPoints {
   /// The number of points that are not selected.
   static constexpr std::int64_t left_out = -1;
   std::vector<std::int64_t> number;  ///< N; `left_out` for points not selected
   std::vector<int> point;            ///< index of the point, by number
 
-  explicit Selection(std::size_t size) : number(size, left_out) {}
+  explicit NumberedPoints(std::size_t size) : number(size, left_out) {}
   /// Adds a point; to be called in ascending order.
   void add(int i) {
     number[i] = static_cast<std::int64_t>(point.size());
@@ -29,7 +29,7 @@ struct Selection {
 /// The lower triangle of L over the selected points, each entry replaced by value(i, j, L_ij), where i and j are
 /// indices in L.
 template <class Value>
-LongMatrix lowerTriangle(const SparseMatrix& L, const Selection& selection, const Value& value) {
+LongMatrix lowerTriangle(const SparseMatrix& L, const NumberedPoints& selection, const Value& value) {
   const auto n = static_cast<Eigen::Index>(selection.point.size());
   LongMatrix lower(n, n);
   lower.reserve((L.nonZeros() + n) / 2);
