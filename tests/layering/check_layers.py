@@ -6,6 +6,7 @@
     the benchmark (tools/bench) also the rooms that it measures
     public headers know Eigen and the standard library only (those in tufted/pcl also PCL)
     nothing in the library writes to a stream
+    no two headers of the library define a type of one name, which would break the one-definition rule
 """
 import pathlib
 import re
@@ -38,6 +39,9 @@ COMMENT_OR_TEXT = re.compile(
 STREAM = re.compile(
     r"\bstd::w?(?:cout|cerr|clog)\b|\b(?:stdout|stderr)\b"
     r"|(?<![\w.>])(?:std::|::)?(?:v?f?printf|f?puts|f?putc|putchar|perror)\s*\(")
+
+# A type that is defined at the left margin.
+TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?: :[^;]*)? \{$", re.MULTILINE)
 
 
 def part_of(name):
@@ -129,6 +133,15 @@ def check(root):
     for path in files(root / "tools"):
         for name, quoted in includes(path):
             report(path, tool_fault(path, name, quoted))
+
+    defined = {}
+    for path in public + sources:
+        if path.suffix not in (".h", ".hpp") or "python" in path.parts:
+            continue
+        for name in TYPE.findall(path.read_text(encoding="utf-8")):
+            if name in defined:
+                report(path, f"{name} is a type of {defined[name]}, too")
+            defined[name] = path.relative_to(root)
 
     if not public or not sources:
         faults.append(f"{root}: holds no include/tufted or no src")

@@ -13,6 +13,8 @@ SOUND = {
     "include/tufted/laplacian.h": '#include "tufted/types.h"\n',
     "include/tufted/io/read.h": '#include "tufted/types.h"\n#include <filesystem>\n',
     "include/tufted/pcl/smooth.h": '#include <pcl/filters/filter.h>\n#include "tufted/laplacian.h"\n',
+    "include/tufted/curve.h": "struct Curve {\n  int points;\n};\nstruct Other;\n",
+    "src/base/scaling.h": "struct Scaling {\n  struct Curve {};\n};\nclass Other : public Scaling {\n};\n",
     "src/base/scaling.cpp": '#include "base/scaling.h"\n// printf("not code")\n',
     "src/neighbors/neighbors.cpp": '#include <flann/flann.hpp>\n#include "base/scaling.h"\n#include "tufted/types.h"\n',
     "src/cover/flips.cpp": 'const char* text = "std::cout";\n/* #include "stars/stars.h" */\n',
@@ -29,6 +31,7 @@ SOUND = {
 
 # file, line added to it, part of the fault that must be named
 FAULTS = [
+    ("src/base/scaling.h", "struct Curve {", "Curve is a type of include/tufted/curve.h, too"),
     ("src/base/scaling.cpp", '#include "neighbors/morton.h"', "base may not include neighbors"),
     ("src/neighbors/neighbors.cpp", '#include "cover/cover.h"', "neighbors may not include cover"),
     ("src/neighbors/neighbors.cpp", '  #  include "operators/gradient.h"', "neighbors may not include operators"),
