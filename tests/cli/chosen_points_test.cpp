@@ -74,7 +74,8 @@ TEST_F(ChosenPoints, ResultsAreThoseOfAFileOfThesePointsAlone) {
     const std::vector<std::int32_t> rows = values<std::int32_t>("chosen/file_row.npy");
     ASSERT_EQ(rows.size(), 343u);
     for (int i = 0; i < 343; ++i) EXPECT_EQ(rows[i], i + (i + 3) / 6) << i;
-    for (const std::string file : report("alone")["files"]) {
+    const nlohmann::json alone_report = report("alone");
+    for (const std::string file : alone_report["files"]) {
       if (!file.ends_with(".npy")) continue;
       EXPECT_EQ(readAll(dir_ / "chosen" / file), readAll(dir_ / "alone" / file)) << file;
     }
