@@ -28,9 +28,9 @@ double countFinite(const tufted::PointsRef& points) {
 
 }  // namespace
 
-std::vector<int> middleRows(const tufted::Geometry& geometry, int most) {
+std::vector<int> fullestRows(const tufted::Geometry& geometry, int most) {
   const int rows = std::clamp(most / geometry.width, 1, geometry.height);
-  // Of blocks that overlap by half, the one with the most finite points, and of equal ones the nearest to the middle.
+  // Blocks that overlap by half are compared. Of blocks with equal counts the nearest to the middle is taken.
   const int step = std::max(1, rows / 2), middle = (geometry.height - rows) / 2;
   int best = middle;
   double most_finite = countFinite(geometry.points.middleRows(middle * geometry.width, rows * geometry.width));
@@ -46,12 +46,12 @@ std::vector<int> middleRows(const tufted::Geometry& geometry, int most) {
   return sample;
 }
 
-ExpectedCost expectedCost(const tufted::Geometry& geometry, const std::vector<int>& sample, Structure structure,
-                          tufted::CloudOptions options) {
+ExpectedCost expectedCost(const tufted::Geometry& geometry, std::int64_t finite, const std::vector<int>& sample,
+                          Structure structure, tufted::CloudOptions options) {
   const tufted::Points points = geometry.points(sample, Eigen::all);
   const double all = static_cast<double>(geometry.points.rows());
-  const double finite = countFinite(points);
-  if (finite == 0) return withFiles(0, 0, all);
+  const double finite_in_sample = countFinite(points);
+  if (finite_in_sample == 0) return withFiles(0, 0, all);
   std::optional<tufted::ScanStructure> image;
   if (structure == Structure::image) {
     image = tufted::imageStructure(geometry.width, static_cast<int>(points.rows()) / geometry.width,
@@ -65,7 +65,7 @@ ExpectedCost expectedCost(const tufted::Geometry& geometry, const std::vector<in
     cost.seconds += stage.seconds;
     cost.bytes += static_cast<double>(stage.bytes);
   }
-  const double ratio = countFinite(geometry.points) / finite;
+  const double ratio = static_cast<double>(finite) / finite_in_sample;
   cost.seconds *= ratio * (1 + growth_per_doubling * std::log2(ratio));
   return withFiles(cost.seconds, cost.bytes * ratio * peak_per_stages, all);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "structure.h"
@@ -12,15 +13,16 @@ struct ExpectedCost {
   double bytes = 0;  ///< peak memory
 };
 
-/// The middle rows of an organized cloud, about `most` points of consecutive indices.
-std::vector<int> middleRows(const tufted::Geometry& geometry, int most);
+/// The consecutive rows of an organized cloud, of about `most` pixels, that have the most finite points.
+std::vector<int> fullestRows(const tufted::Geometry& geometry, int most);
 
 /// Builds a sample of a cloud with the default options, and extrapolates from its cost to all points.
-/// @param sample indices as those of tufted::sampleRegions(), or middleRows() for a depth image
+/// @param finite number of finite points of the cloud
+/// @param sample indices as those of tufted::sampleRegions(), or fullestRows() for a depth image
 /// @param structure of the build, none or image
 /// @param options neighbours, threads and progress of the build
-ExpectedCost expectedCost(const tufted::Geometry& geometry, const std::vector<int>& sample, Structure structure,
-                          tufted::CloudOptions options);
+ExpectedCost expectedCost(const tufted::Geometry& geometry, std::int64_t finite, const std::vector<int>& sample,
+                          Structure structure, tufted::CloudOptions options);
 
 /// Adds the program, and the reading and writing of files, to the cost of a build.
 /// @param seconds,bytes of the build

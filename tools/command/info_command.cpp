@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "command.h"
 #include "console.h"
 #include "expected_cost.h"
+#include "info_text.h"
 #include "input.h"
 #include "interrupt.h"
 #include "las_classes.h"
@@ -38,8 +38,8 @@ constexpr const char* footer =
   tufted info scan.ply --json
 
 Nothing is written. Of a cloud of more than 100,000 points only a sample is looked at: the points of eight balls around
-points that are spread over the file, or the middle rows of a depth image. --full looks at all points, which takes about
-as long as a build. A mesh is built.
+points that are spread over the file, or of a depth image the rows with the most points. --full looks at all points, which
+takes about as long as a build. A mesh is built.
   sample        number of points that were looked at. Counts of odd points are those among them, but that of points
                 that are not finite is of the whole file
   spacing       median distance to the nearest neighbour (and its 5 % and 95 % quantiles)
@@ -57,7 +57,6 @@ as long as a build. A mesh is built.
 
 constexpr double bytes_per_triangle = 300;  ///< peak memory of a mesh that is read and built
 constexpr int sample_size = 100000;         ///< points, built and described in less than a second
-constexpr double coarse_step = 0.1;         ///< float steps above this many spacings move points visibly
 
 struct Settings {
   Input input;
@@ -144,117 +143,6 @@ void addMesh(const tufted::Report& report, Json& info) {
           info);
 }
 
-/// One sentence for each oddity that a user should know before trusting a result.
-std::vector<std::string> findOddities(const Json& info, bool joins_equal) {
-  std::vector<std::string> odd;
-  const std::string of_sample = info["sampled"] == info["points"]
-                                    ? ""
-                                    : " of " + std::to_string(info["sampled"].get<std::int64_t>()) + " looked at";
-  const auto add = [&](const char* member, const char* text, const std::string& tail = "") {
-    if (info.contains(member) && info[member].get<std::int64_t>() > 0)
-      odd.push_back(std::string(text) + ": " + std::to_string(info[member].get<std::int64_t>()) + tail);
-  };
-  if (info["points"] == 0) odd.emplace_back("the file holds no points");
-  add("not_finite", "points that are not finite and take no part");
-  add("coincident",
-      info["kind"] == "cloud" ? "points that equal an earlier one and take no part"
-      : joins_equal           ? "vertices that equal an earlier one, which stands for them"
-                              : "vertices that equal another one and stay separate (--weld joins them)",
-      of_sample);
-  add("outliers",
-      "points whose nearest neighbour is five times as far as is usual around them; most take part all the same",
-      of_sample);
-  add("isolated", "vertices without a triangle");
-  add("repeated_vertex_triangles", "triangles that name a vertex twice and are dropped");
-  add("not_finite_triangles", "triangles with a vertex that is not finite, which are dropped");
-  add("degenerate_faces", "faces without area");
-  add("nonmanifold_edges", "edges of more than two triangles");
-  if (info.contains("on_lines") && info["on_lines"].get<double>() > 0.05 * info["sampled"].get<double>())
-    add("on_lines", "points whose neighbours lie on one line, as on the rings of a spinning scanner", of_sample);
-  const double spacing = info["spacing"].get<double>(), step = info["float_step"].get<double>();
-  if (std::isinf(step))
-    odd.push_back("coordinates beyond the range of floats");
-  else if (spacing > 0 && step > coarse_step * spacing)
-    odd.push_back("so far from the origin that floats would move points by up to " +
-                  std::to_string(step / 2 / spacing) + " of the spacing");
-  return odd;
-}
-
-void printTriple(const char* name, const Json& values) {
-  std::printf("%-15s %.10g %.10g %.10g\n", name, values[0].get<double>(), values[1].get<double>(),
-              values[2].get<double>());
-}
-
-void printFields(const Json& info) {
-  std::string names = info["normals"] ? "normals" : "";
-  for (const Json& field : info["fields"]) {
-    const int count = field["count"].get<int>();
-    names += (names.empty() ? "" : ", ") + field["name"].get<std::string>() + " " + field["type"].get<std::string>() +
-             (count > 1 ? " x " + std::to_string(count) : "");
-  }
-  if (!names.empty()) std::printf("%-15s %s\n", "fields", names.c_str());
-}
-
-long long integer(const Json& info, const char* member) {
-  return static_cast<long long>(info[member].get<std::int64_t>());
-}
-
-double real(const Json& info, const char* member) {
-  return info[member].get<double>();
-}
-
-/// Prints what the head of a file says, at once, because reading a large file takes a while.
-void printHead(const Json& info) {
-  std::printf("%-15s %s (%s)\n", "file", info["file"].get<std::string>().c_str(),
-              info["kind"].get<std::string>().c_str());
-  std::printf("%-15s %s\n", "format", info["format"].get<std::string>().c_str());
-  std::printf("%-15s %lld", "points", integer(info, "points"));
-  if (info["organized"]) std::printf(", organized %lld x %lld", integer(info, "width"), integer(info, "height"));
-  if (info["kind"] == "mesh") std::printf("; %lld faces", integer(info, "triangles"));
-  std::printf("\n");
-  printFields(info);
-  if (info["viewpoint"] != Json(tufted::Geometry().viewpoint))
-    std::printf("%-15s %s\n", "viewpoint", info["viewpoint"].dump().c_str());
-  std::fflush(stdout);
-}
-
-void printContent(const Json& info) {
-  const bool is_mesh = info["kind"] == "mesh";
-  if (is_mesh)
-    std::printf("%-15s %lld, %lld polygons triangulated\n", "triangles", integer(info, "triangles"),
-                integer(info, "polygons"));
-  if (integer(info, "merged_vertices") > 0)
-    std::printf("%-15s %lld equal corners\n", "merged", integer(info, "merged_vertices"));
-  if (info.contains("selection"))
-    std::printf("%-15s %lld of %lld points, which the rest describes\n", "chosen", integer(info["selection"], "kept"),
-                integer(info["selection"], "points"));
-  if (info.contains("classes"))
-    for (const Json& each : info["classes"])
-      std::printf("%-15s %lld %s, %lld points\n", "class", integer(each, "number"),
-                  each["name"].get<std::string>().c_str(), integer(each, "points"));
-  printTriple("lowest", info["lowest"]);
-  printTriple("highest", info["highest"]);
-  if (integer(info, "sampled") < integer(info, "points"))
-    std::printf("%-15s %lld points; --full looks at all\n", "sample", integer(info, "sampled"));
-  std::printf("%-15s %.4g (%.4g to %.4g)\n", "spacing", real(info, "spacing"), real(info, "spacing_low"),
-              real(info, "spacing_high"));
-  std::printf("%-15s %.4g\n", "float step", real(info, "float_step"));
-  if (is_mesh) {
-    std::printf("%-15s %.4g\n", "mean edge", real(info, "mean_edge"));
-    std::printf("%-15s %lld boundary, %lld nonmanifold\n", "edges", integer(info, "boundary_edges"),
-                integer(info, "nonmanifold_edges"));
-  }
-  if (info.value("neighbors_clamped", false))
-    std::printf("%-15s %lld, all other points\n", "neighbors", integer(info, "neighbors"));
-  for (const auto& [member, name] : {std::pair("components", "components"), std::pair("graph_parts", "graph parts")})
-    if (info.contains(member)) std::printf("%-15s %lld\n", name, integer(info, member));
-  if (info.value("structure", "") == nameOf(Structure::image))
-    std::printf("%-15s %s\n", "structure", "depth image, built by its pixels");
-  for (const Json& sentence : info["odd"]) std::printf("%-15s %s\n", "odd", sentence.get<std::string>().c_str());
-  std::printf("%-15s %.2g s, %.0f MB\n", "to expect", real(info, "expected_seconds"),
-              real(info, "expected_bytes") / 1e6);
-}
-
 /// Explains why no point would be active; otherwise an empty string. Builds a cloud only if that is possible.
 std::string findNothing(const Settings& settings, const tufted::Geometry& geometry,
                         const tufted::CloudDescription& cloud) {
@@ -267,24 +155,26 @@ std::string findNothing(const Settings& settings, const tufted::Geometry& geomet
   return nothingActive(tufted::pointCloudLaplacian(geometry.points, options));
 }
 
-/// The points of a cloud or mesh that are looked at: all, or a sample of a large file.
-std::vector<int> sampleOf(const Settings& settings, const tufted::Geometry& geometry, Structure structure) {
-  if (settings.full || geometry.points.rows() <= sample_size) {
+/// A sample of a large cloud or mesh, or all points of a small one.
+std::vector<int> sampleOf(const tufted::Geometry& geometry, Structure structure) {
+  if (geometry.points.rows() <= sample_size) {
     std::vector<int> all(geometry.points.rows());
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
-  return structure == Structure::image ? middleRows(geometry, sample_size)
+  return structure == Structure::image ? fullestRows(geometry, sample_size)
                                        : tufted::sampleRegions(geometry.points, sample_size);
 }
 
 /// Describes the points, and builds what shows how long a build takes. Returns why no point would be active, otherwise
 /// an empty string.
 std::string describePoints(const Settings& settings, const tufted::Geometry& geometry, Json& info) {
-  // As in a build, --neighbors asks for a search.
+  // An image is not built by its pixels where --neighbors asks for a search.
   const Structure structure = settings.neighbors->count() == 0 ? structureFor(geometry) : Structure::none;
-  const tufted::CloudDescription points =
-      tufted::describeSample(geometry.points, sampleOf(settings, geometry, structure), settings.cloud);
+  const std::vector<int> sample = sampleOf(geometry, structure);
+  const tufted::CloudDescription points = settings.full
+                                              ? tufted::describeCloud(geometry.points, settings.cloud)
+                                              : tufted::describeSample(geometry.points, sample, settings.cloud);
   addExtent(points, info);
   if (geometry.is_mesh) {
     const tufted::MeshOptions options = {.threads = settings.cloud.threads,
@@ -296,9 +186,7 @@ std::string describePoints(const Settings& settings, const tufted::Geometry& geo
     return nothingActive(laplacian);
   }
   addCloud(points, settings.cloud.neighbors, structure, info);
-  Settings sampling = settings;
-  sampling.full = false;
-  addCost(expectedCost(geometry, sampleOf(sampling, geometry, structure), structure, settings.cloud), info);
+  addCost(expectedCost(geometry, points.points - points.not_finite, sample, structure, settings.cloud), info);
   return findNothing(settings, geometry, points);
 }
 
@@ -307,7 +195,7 @@ int runInfo(Settings settings) {
   settings.cloud.progress = showOn(bar);
   const bool prints = !settings.console.quiet && !settings.console.json;
   const std::optional<tufted::FileHead> head = readInputHead(settings.input);
-  if (head && prints) printHead(describeFile(settings, *head));
+  if (head && prints) printInfoHead(describeFile(settings, *head));
   settings.cloud.progress("read", 0);
   tufted::FileHead file;
   file.geometry = readInput(settings.input, settings.cloud.progress);
@@ -326,8 +214,8 @@ int runInfo(Settings settings) {
   if (!nothing.empty()) warnings.push_back(settings.input.name() + ": " + nothing);
   for (const std::string& warning : warnings) warn(bar, warning);
   info["warnings"] = warnings;
-  if (prints && !head) printHead(info);
-  if (prints) printContent(info);
+  if (prints && !head) printInfoHead(info);
+  if (prints) printInfo(info);
   if (settings.console.json) std::printf("%s\n", info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot be written");
   return exit_done;
