@@ -132,12 +132,11 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.mesh.keep_cover = keep_cover;
   build.mesh.weld = input.weld;
   if (build.mollify) build.cloud.mollify = build.mesh.mollify = *build.mollify;
+  if (geometry.is_mesh) return tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh);
   tufted::Laplacian laplacian;
   try {
-    if (geometry.is_mesh) return tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh);
     laplacian = cloudLaplacian(geometry, input, build);
   } catch (const std::bad_alloc&) {
-    if (geometry.is_mesh) throw;
     const auto points = geometry.points.rows();
     throw tufted::FileTooLarge("out of memory: " +
                                memoryText(input, points, static_cast<double>(points) * least_build_bytes));
