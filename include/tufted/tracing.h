@@ -20,6 +20,9 @@ enum class TraceEnd : std::uint8_t {
   crossings,  ///< it has crossed a million edges, which a length in the wrong unit explains
 };
 
+/// The name of a reason: "length", "rim", "branch" or "crossings".
+const char* nameOf(TraceEnd reason);
+
 /// A straight line on a surface, as GeodesicTracer traces it.
 struct TracedLine {
   Polyline line;     ///< from the start over all places where an edge is crossed or a vertex passed to the end

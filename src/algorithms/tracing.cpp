@@ -70,6 +70,11 @@ struct Beginning {
 
 }  // namespace
 
+const char* nameOf(TraceEnd reason) {
+  constexpr const char* names[] = {"length", "rim", "branch", "crossings"};
+  return names[static_cast<int>(reason)];
+}
+
 struct GeodesicTracer::State {
   MarchFaces faces;
   Points points;

@@ -1,7 +1,6 @@
 // Geodesic distances, and lines on the surface.
 #include "tufted/distance.h"
 
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -91,15 +90,13 @@ GeodesicTracer tracerOf(const Doubles& points, const Integers& faces, Points nor
 /// Points, length, why the line ends, direction there, and corners and barycentric coordinates of the end.
 py::tuple traced(const GeodesicTracer& tracer, const SurfacePoint& start, const Eigen::RowVector3d& direction,
                  double length, const py::object& progress) {
-  static constexpr std::array reasons = {"length", "rim", "branch", "crossings"};  // TraceEnd
   TracedLine found =
       run(progress, [&](const Progress& called) { return tracer.query(start, direction, length, called); });
-  return py::make_tuple(std::move(found.line.points), found.line.length,
-                        reasons[static_cast<std::size_t>(found.reason)], found.direction, found.end.corners,
-                        found.end.weights);
+  return py::make_tuple(std::move(found.line.points), found.line.length, nameOf(found.reason), found.direction,
+                        found.end.corners, found.end.weights);
 }
 
-/// Of each line the points, the value, the length, and whether it is closed.
+/// A list with a tuple for each line: its points, value and length, and whether it is closed.
 py::list isolinesOf(const Doubles& points, const Integers& faces, const VectorXd& field,
                     const std::vector<double>& values, const py::object& progress) {
   std::vector<Polyline> lines = run(progress, [&](const Progress& called) {

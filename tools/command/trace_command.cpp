@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -41,8 +40,6 @@ Files in DIR, which replace older ones when all are complete:
 `tufted laplacian --format npz,ply,cover --out DIR` wrote: clouds
 need the triangles of the cover.)";
 
-constexpr std::array reasons = {"length", "rim", "branch", "crossings"};  // TraceEnd
-
 struct Settings {
   OperatorSettings source;
   NamedPoints points;
@@ -79,7 +76,7 @@ Results compute(Settings& settings, Operator& source) {
   for (int& corner : start.corners) corner = source.laplacian.representative[corner];
   const tufted::GeodesicTracer tracer(source.laplacian.positions, joinedTriangles(source), framesOf(source));
   const tufted::TracedLine traced = tracer.query(start, settings.direction, settings.length, source.progress);
-  const char* const reason = reasons[static_cast<std::size_t>(traced.reason)];
+  const char* const reason = tufted::nameOf(traced.reason);
   results.arrays = {{.name = "path", .values = traced.line.points, .per_point = false}};
   results.lines = {traced.line};
   results.report["length"] = traced.line.length;
