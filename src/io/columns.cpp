@@ -70,6 +70,10 @@ std::size_t sizeOf(FieldType type) {
   return visitType(type, [](auto zero) { return sizeof(zero); });
 }
 
+bool isPackedColor(const Field& field) {
+  return (field.name == "rgb" || field.name == "rgba") && field.count == 1 && sizeOf(field.type) == 4;
+}
+
 bool isInteger(FieldType type) {
   return visitType(type, [](auto zero) { return std::is_integral_v<decltype(zero)>; });
 }

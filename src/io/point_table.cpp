@@ -95,7 +95,7 @@ PointTable pointTable(const Laplacian& laplacian, const Geometry& geometry, cons
 }
 
 bool addPackedColor(PointTable& table, const Field& field) {
-  if ((field.name != "rgb" && field.name != "rgba") || field.count != 1 || sizeOf(field.type) != 4) return false;
+  if (!isPackedColor(field)) return false;
   const std::byte* const bytes = field.bytes.data();
   table.add({"red", FieldType::uint8, 1, bytes + 2, 4});
   table.add({"green", FieldType::uint8, 1, bytes + 1, 4});

@@ -19,7 +19,7 @@ struct NamedValues {
 
   explicit NamedValues(const Geometry& geometry) {
     for (const Field& field : geometry.fields) {
-      if ((field.name == "rgb" || field.name == "rgba") && field.count == 1 && sizeOf(field.type) == 4) {
+      if (isPackedColor(field)) {
         const char* const channels[] = {"blue", "green", "red"};  // in the order of the bytes
         for (int k = 0; k < 3; ++k)
           add(channels[k], [&field, k](std::size_t i) { return std::to_integer<int>(field.bytes[4 * i + k]); });
