@@ -89,12 +89,16 @@ void dropOthers(Geometry& geometry, const std::vector<int>& rows) {
     field.bytes.resize(rows.size() * size);
   }
   geometry.width = static_cast<int>(rows.size());
-  std::erase_if(geometry.fields, [](const Field& field) { return field.name == file_row; });
+  removeFileRow(geometry);
   const auto* const bytes = reinterpret_cast<const std::byte*>(rows.data());
   geometry.fields.push_back({file_row, FieldType::int32, 1, {bytes, bytes + rows.size() * sizeof(int)}});
 }
 
 }  // namespace
+
+void removeFileRow(Geometry& geometry) {
+  std::erase_if(geometry.fields, [](const Field& field) { return field.name == file_row; });
+}
 
 std::vector<int> select(Geometry& geometry, const Selection& selection) {
   check(geometry, selection);

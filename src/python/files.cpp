@@ -59,8 +59,8 @@ Geometry readFile(const std::filesystem::path& path, const std::string& kind, bo
       run(progress, [&](const Progress& called) { return read(path, as, FileFormat::automatic, called); });
   if (weld && !geometry.is_mesh)
     throw InvalidInput("read: weld = True, must be False for a cloud, whose coincident points are merged in any case");
-  if (selection.isEmpty())  // rows of an earlier choice are not those of this file
-    std::erase_if(geometry.fields, [](const Field& field) { return field.name == file_row; });
+  if (selection.isEmpty())
+    removeFileRow(geometry);
   else
     run(progress, [&](const Progress&) { return select(geometry, selection); });
   const int caller = 2;  // stack level: the line that called the package's function

@@ -57,11 +57,7 @@ tufted::Selection selectionOf(const ChosenPoints& chosen) {
 
 void choose(tufted::Geometry& geometry, Input& input) {
   const tufted::Selection selection = selectionOf(input.chosen);
-  if (selection.isEmpty()) {
-    // Of an earlier choice: its rows are not those of this file.
-    std::erase_if(geometry.fields, [](const tufted::Field& field) { return field.name == tufted::file_row; });
-    return;
-  }
+  if (selection.isEmpty()) return tufted::removeFileRow(geometry);
   if (geometry.is_mesh)
     throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to point clouds, and " + input.name() +
                                " holds a mesh (--as cloud takes its vertices alone)");

@@ -37,6 +37,9 @@ struct Selection {
 /// The field that select() adds. writeLaplacian(), writeResults() and writeOperators() repeat it as file_row.npy.
 inline constexpr const char* file_row = "file_row";
 
+/// Removes an older field `file_row`, whose rows are those of another file than the one that was read.
+void removeFileRow(Geometry& geometry);
+
 /// Drops all points of a cloud that a selection does not keep. The others keep their order, and a field `file_row`
 /// (int32) says which point of the cloud each was, counted from 0; it replaces an older field of that name. Writers
 /// also write that field as file_row.npy.
