@@ -65,8 +65,8 @@ void readExtra(const LasExtra& extra, std::size_t byte, const Records& records, 
 
 namespace {
 
-/// Of a field of the point format that an extra value replaces, as its name says, only that value is kept: our files
-/// have a field as an extra value if the point format would round it.
+/// Drops the fields of the point format whose name an extra value has. Files that we wrote have a field as an extra
+/// value if the point format cannot hold it as it is, and zeros in its place.
 void dropReplaced(const LasHeader& header, std::vector<Field>& fields) {
   const auto is_replaced = [&](const Field& field) {
     return std::any_of(header.extras.begin(), header.extras.end(),

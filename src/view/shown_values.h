@@ -16,7 +16,7 @@ inline bool isLogarithmic(FieldKind kind) {
 Eigen::VectorXd shownValues(const SceneField& field, int column);
 
 /// The points from which distances, or coordinates of a logarithmic map, are measured: those whose value is exactly 0.
-/// None if they are so many that they cover a curve or a part of the surface.
+/// The list is empty if they are so many that they cover a curve or a part of the surface.
 /// @param values as from shownValues()
 std::vector<int> sourcesOf(FieldKind kind, const Eigen::Ref<const Eigen::VectorXd>& values);
 

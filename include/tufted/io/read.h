@@ -56,8 +56,8 @@ struct Geometry {
   std::int64_t merged_vertices = 0;  ///< corners of an STL that were merged with an earlier equal one
   std::int64_t unread_bytes = 0;     ///< bytes behind the last record that the file announces; they are skipped
   std::vector<std::string> notes;    ///< what was skipped or changed: a line each, beginning with the path
-  /// Of a LAS file the header and the variable length records, such as the coordinate reference system, from which
-  /// Format::las writes points.las with the same scale and offset; otherwise empty.
+  /// The header of a LAS file and its variable length records, such as the coordinate reference system. From these
+  /// Format::las writes points.las with the same scale and offset. It is empty for other files.
   std::string las_header;
 };
 
