@@ -18,7 +18,7 @@ command_packages=(
   libeigen3-dev libflann-dev liblz4-dev libcgal-dev libtbb-dev      # the core
   libsuitesparse-dev libopenblas-dev  # CHOLMOD, and the BLAS that it finds through Debian's alternatives: the reference
                                       # BLAS, which it takes otherwise, makes a factorisation 2 to 4 times slower
-  liblzf-dev libzip-dev libmatio-dev nlohmann-json3-dev libcli11-dev  # files and the command
+  liblzf-dev libzip-dev nlohmann-json3-dev libcli11-dev  # files and the command
   zlib1g-dev libpng-dev libfreetype-dev  # pages and pictures to look at
 )
 pcl_packages=(libpcl-dev)

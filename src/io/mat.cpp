@@ -1,84 +1,103 @@
 #include "io/mat.h"
 
-#include <matio.h>
-
-#include <cerrno>
+#include <bit>
+#include <initializer_list>
 #include <limits>
-#include <memory>
 #include <string>
+#include <string_view>
 
 #include "io/errors.h"
 
 namespace tufted::io {
 namespace {
 
-/// A MATLAB 5 file being written. libmatio 1.5 ignores results of fwrite, but a failed one sets errno, which is
-/// checked.
+// "MAT-File Level 5 File Format" (The MathWorks), chapter 1: numbers of the types of data and of the classes of arrays.
+enum class Type : std::uint32_t { int8 = 1, uint8 = 2, int32 = 5, uint32 = 6, float64 = 9, matrix = 14, utf8 = 16 };
+enum class Class : std::uint32_t { text = 4, sparse = 5, float64 = 6, uint8 = 9, int32 = 12 };
+
+/// Values of one type, borrowed.
+struct Element {
+  Type type;
+  const void* values;
+  std::uint64_t bytes;
+};
+
+/// Elements start at multiples of 8 bytes.
+std::uint64_t padded(std::uint64_t bytes) {
+  return (bytes + 7) / 8 * 8;
+}
+
+constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();  // bytes of a variable
+
+/// A MATLAB 5 file being written, in this machine's order of bytes.
 class MatFile {
  public:
-  explicit MatFile(const OutputPath& to) : shown_(to.shown) {
-    errno = 0;
-    // libmatio's own header has the date; without it equal matrices give equal files.
-    file_.reset(Mat_CreateVer(to.path.c_str(), "MATLAB 5.0 MAT-file, written by tufted; see the variable `conventions`",
-                              MAT_FT_MAT5));
-    check(file_ != nullptr);
+  explicit MatFile(const OutputPath& to) : shown_(to.shown), file_(to) {
+    static_assert(std::endian::native == std::endian::little, "the mark IM says so");
+    // No date, so that equal matrices give equal files.
+    std::string header = "MATLAB 5.0 MAT-file, written by tufted; see the variable `conventions`";
+    header.resize(124, ' ');
+    file_.write(header + std::string("\0\1IM", 4));  // version 0x0100
   }
 
-  /// Writes a variable.
-  /// @param data an array, or a mat_sparse_t
-  void write(const char* name, matio_classes kind, matio_types type, std::size_t rows, std::size_t columns,
-             const void* data) {
-    std::size_t dims[2] = {rows, columns};
-    const std::unique_ptr<matvar_t, decltype(&Mat_VarFree)> variable(
-        Mat_VarCreate(name, kind, type, 2, dims, const_cast<void*>(data), MAT_F_DONT_COPY_DATA), &Mat_VarFree);
-    check(variable && Mat_VarWrite(file_.get(), variable.get(), MAT_COMPRESSION_NONE) == 0);
+  /// Writes a variable. @param nonzeros of a sparse matrix @throws IoError also where it is too large
+  void write(std::string_view name, Class kind, Eigen::Index rows, Eigen::Index columns,
+             std::initializer_list<Element> values, std::uint32_t nonzeros = 0) {
+    const std::uint32_t flags[2] = {static_cast<std::uint32_t>(kind), nonzeros};
+    const std::int32_t dimensions[2] = {static_cast<std::int32_t>(rows), static_cast<std::int32_t>(columns)};
+    const Element beginning[3] = {{Type::uint32, flags, sizeof flags},
+                                  {Type::int32, dimensions, sizeof dimensions},
+                                  {Type::int8, name.data(), name.size()}};
+    std::uint64_t bytes = 0;
+    for (const Element& element : beginning) bytes += 8 + padded(element.bytes);
+    for (const Element& element : values) bytes += 8 + padded(element.bytes);
+    if (bytes > most)
+      refuse(shown_, "cannot write: " + std::string(name) + " takes " + std::to_string(bytes) +
+                         " bytes, and a MATLAB 5 file holds at most " + std::to_string(most) +
+                         " per variable; other formats have room");
+    writeTag(Type::matrix, bytes);
+    for (const Element& element : beginning) writeElement(element);
+    for (const Element& element : values) writeElement(element);
   }
 
-  void close() { check(Mat_Close(file_.release()) == 0); }
+  void close() { file_.close(); }
 
  private:
-  void check(bool done) const {
-    if (errno != 0) refuseErrno(shown_, "write", errno);
-    if (!done) refuse(shown_, "cannot write: libmatio refuses");
+  void writeTag(Type type, std::uint64_t bytes) {
+    const std::uint32_t tag[2] = {static_cast<std::uint32_t>(type), static_cast<std::uint32_t>(bytes)};
+    file_.write(tag, sizeof tag);
+  }
+
+  void writeElement(const Element& element) {
+    writeTag(element.type, element.bytes);
+    file_.write(element.values, element.bytes);
+    file_.write(std::string(padded(element.bytes) - element.bytes, '\0'));
   }
 
   std::filesystem::path shown_;
-  std::unique_ptr<mat_t, decltype(&Mat_Close)> file_ = {nullptr, &Mat_Close};
+  OutputFile file_;
 };
-
-void checkSize(const OutputPath& to, const char* name, std::uint64_t bytes) {
-  constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
-  if (bytes > most)
-    refuse(to.shown, std::string("cannot write: ") + name + " takes " + std::to_string(bytes) +
-                         " bytes, and a MATLAB 5 file holds at most " + std::to_string(most) +
-                         " per variable; other formats have room");
-}
 
 }  // namespace
 
 void writeMat(const OutputPath& to, const SparseMatrix& L, const VectorXd& M, const Laplacian& laplacian,
               const std::vector<Convention>& conventions) {
   const std::size_t points = M.size();
-  constexpr std::uint64_t framing = 256;  // upper bound of the bytes of the tags around a variable's values
-  checkSize(to, "L",
-            L.nonZeros() * (sizeof(double) + sizeof(int)) + (L.cols() + std::uint64_t{1}) * sizeof(int) + framing);
-  checkSize(to, "M", points * sizeof(double) + framing);
-
-  mat_sparse_t sparse = {};
-  sparse.nzmax = sparse.nir = sparse.ndata = static_cast<mat_uint32_t>(L.nonZeros());
-  sparse.njc = static_cast<mat_uint32_t>(L.cols() + 1);
-  sparse.ir = reinterpret_cast<mat_uint32_t*>(const_cast<int*>(L.innerIndexPtr()));
-  sparse.jc = reinterpret_cast<mat_uint32_t*>(const_cast<int*>(L.outerIndexPtr()));
-  sparse.data = const_cast<double*>(L.valuePtr());
   const std::string text = conventionLines(conventions, "");
 
+  const auto nonzeros = static_cast<std::uint64_t>(L.nonZeros()), ends = static_cast<std::uint64_t>(L.cols()) + 1;
   MatFile file(to);
-  file.write("L", MAT_C_SPARSE, MAT_T_DOUBLE, L.rows(), L.cols(), &sparse);
-  file.write("M", MAT_C_DOUBLE, MAT_T_DOUBLE, points, 1, M.data());
-  file.write("status", MAT_C_UINT8, MAT_T_UINT8, points, 1, laplacian.status.data());
-  file.write("representative", MAT_C_INT32, MAT_T_INT32, points, 1, laplacian.representative.data());
-  file.write("boundary", MAT_C_UINT8, MAT_T_UINT8, points, 1, laplacian.boundary.data());
-  file.write("conventions", MAT_C_CHAR, MAT_T_UTF8, 1, text.size(), text.data());
+  file.write("L", Class::sparse, L.rows(), L.cols(),
+             {{Type::int32, L.innerIndexPtr(), nonzeros * sizeof(int)},
+              {Type::int32, L.outerIndexPtr(), ends * sizeof(int)},
+              {Type::float64, L.valuePtr(), nonzeros * sizeof(double)}},
+             static_cast<std::uint32_t>(nonzeros));
+  file.write("M", Class::float64, M.size(), 1, {{Type::float64, M.data(), points * sizeof(double)}});
+  file.write("status", Class::uint8, M.size(), 1, {{Type::uint8, laplacian.status.data(), points}});
+  file.write("representative", Class::int32, M.size(), 1,
+             {{Type::int32, laplacian.representative.data(), points * sizeof(int)}});
+  file.write("boundary", Class::uint8, M.size(), 1, {{Type::uint8, laplacian.boundary.data(), points}});
+  file.write("conventions", Class::text, 1, std::ssize(text), {{Type::utf8, text.data(), text.size()}});
   file.close();
 }
 

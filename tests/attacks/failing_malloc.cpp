@@ -15,12 +15,11 @@ std::atomic<std::int64_t> live{0}, left{0};
 std::atomic<std::size_t> least_size{0};
 std::atomic<bool> goes_on{false}, failed{false};  // all fail once both are set
 
-/// Whether a library asks that ends the process if it gets none: OpenMP's, which CHOLMOD uses, by intent, and matio by
-/// using a null pointer.
+/// Whether OpenMP's library asks, which CHOLMOD uses: it ends the process if it gets none.
 bool diesWithout(const void* caller) {
   Dl_info info;
   if (dladdr(caller, &info) == 0) return false;
-  return std::strstr(info.dli_fname, "libgomp") != nullptr || std::strstr(info.dli_fname, "libmatio") != nullptr;
+  return std::strstr(info.dli_fname, "libgomp") != nullptr;
 }
 
 /// Counts a request down. False if it is to fail.
