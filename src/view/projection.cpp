@@ -90,7 +90,8 @@ Axes axesOf(const Points& positions, const std::vector<int>& numbers) {
     const Vector3d d = positions.row(i).transpose() - mean;
     covariance += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance);  // the general way would take four seconds to compile
   return {solver.eigenvectors(), solver.eigenvalues() / static_cast<double>(numbers.size())};
 }
 
