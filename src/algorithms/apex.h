@@ -17,9 +17,4 @@ inline Eigen::Vector2d apexLeftOf(const Eigen::Vector2d& a, const Eigen::Vector2
   return a + x * unit + y * Eigen::Vector2d(-unit.y(), unit.x());
 }
 
-/// Positive where b points to the left of a.
-inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 }  // namespace tufted

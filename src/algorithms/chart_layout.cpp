@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "algorithms/chart_metric.h"
+#include "base/cross.h"
 
 namespace tufted {
 namespace {
@@ -16,10 +17,6 @@ constexpr double gap_share = 0.02;
 /// A triangle whose height is below this part of the extent of the map counts as collapsed, unless it is as low on the
 /// surface. Single-precision coordinates and eigenvectors are no more accurate.
 constexpr double least_height = 1e-7;
-
-double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// The largest distance of a corner of a chart from its first corner.
 /// @param at returns the position of a point; NaN where it has none

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/cross.h"
+
 namespace tufted {
 namespace {
-
-float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
 
 /// Whether x lies within the sector from a counterclockwise to b, of less than pi.
 bool isWithin(const Eigen::Vector2f& x, const Eigen::Vector2f& a, const Eigen::Vector2f& b) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "algorithms/apex.h"
+#include "base/cross.h"
 
 namespace tufted {
 namespace {

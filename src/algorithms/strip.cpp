@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "algorithms/apex.h"
+#include "base/cross.h"
 
 namespace tufted {
 namespace {

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/apex.h"
 #include "algorithms/geodesic_step.h"
 #include "algorithms/heat_sources.h"
 #include "algorithms/march_faces.h"
 #include "algorithms/strip.h"
+#include "base/cross.h"
 #include "operators/corners_in_range.h"
 #include "tufted/errors.h"
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "algorithms/apex.h"
+#include "base/cross.h"
 #include "base/power_of_two.h"
 #include "cover/geometry.h"
 

@@ -23,9 +23,9 @@ constexpr double infinity = 1e70;
 enum class View { along_normal, from_viewpoint };
 
 /// The points around p, projected to a plane.
-class Chart {
+class TangentPlane {
  public:
-  Chart(const PointsView& positions, int p, const Eigen::Vector3d& normal)
+  TangentPlane(const PointsView& positions, int p, const Eigen::Vector3d& normal)
       : positions_(positions), p_(p), x_(tangentOf(normal)), y_(normal.cross(x_)) {}
 
   /// The projected vector from p to q.
@@ -71,19 +71,19 @@ class BoundaryFinder {
     if (!hasTriangles(stars_, p)) return Boundary::lost;
     source_.nearest(points_, p, search_factor * source_.k, state.near, NeighborOrder::any, &state.before);
     const Eigen::Vector3d normal = support_.normals.row(p);
-    const Boundary along_normal = lookBeyond(p, View::along_normal, Chart(points_, p, normal), state);
+    const Boundary along_normal = lookBeyond(p, View::along_normal, TangentPlane(points_, p, normal), state);
     if (!seen_ || along_normal == Boundary::jump) return along_normal;
 
     const Eigen::Vector3d sight = directions_.row(p);
     seen_->nearest(p, search_factor * source_.k, state.near, NeighborOrder::any, &state.seen_before);
-    const Chart image(directions_, p, sight.dot(normal) < 0 ? -sight : sight);  // keeps gaps counterclockwise
+    const TangentPlane image(directions_, p, sight.dot(normal) < 0 ? -sight : sight);  // keeps gaps counterclockwise
     const Boundary in_image = lookBeyond(p, View::from_viewpoint, image, state);
     return in_image == Boundary::jump ? Boundary::jump : along_normal;
   }
 
  private:
   /// Squared length of the longest projected spoke of a star that has triangles.
-  double longestEdge(int p, const Chart& chart) const {
+  double longestEdge(int p, const TangentPlane& chart) const {
     double longest = 0;
     forEachTriangle(stars_, p, [&](int a, int b) {
       longest = std::max({longest, chart.offset(a).squaredNorm(), chart.offset(b).squaredNorm()});
@@ -101,7 +101,7 @@ class BoundaryFinder {
            off_plane * (view == View::along_normal ? std::max(support_.fit_radius[p], along) : support_.fit_radius[p]);
   }
 
-  Boundary lookBeyond(int p, View view, const Chart& chart, WorkerState& state) const {
+  Boundary lookBeyond(int p, View view, const TangentPlane& chart, WorkerState& state) const {
     findGaps(
         stars_, p, [&](int q) { return chart.direction(q); }, state.gaps);
     const double limit = farthest * farthest * longestEdge(p, chart);
