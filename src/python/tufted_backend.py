@@ -36,7 +36,7 @@ def _build():
     _check_packages()
     folder = str(ROOT / "build" / "wheel")
     configure = ["cmake", "-S", str(ROOT), "-B", folder, *(["-G", "Ninja"] if shutil.which("ninja") else []),
-                 "-DCMAKE_BUILD_TYPE=Release", "-DTUFTED_UNITY=12", "-DTUFTED_WITH_PYTHON=ON",
+                 "-DCMAKE_BUILD_TYPE=Release", "-DTUFTED_UNITY=24", "-DTUFTED_WITH_PYTHON=ON",
                  "-DTUFTED_WITH_PCL=OFF", "-DTUFTED_BUILD_TOOLS=OFF", "-DTUFTED_BUILD_TESTS=OFF",
                  f"-DTUFTED_PYTHON={sys.executable}", "-DCMAKE_MODULE_LINKER_FLAGS=-s"]
     subprocess.run(configure, check=True)
