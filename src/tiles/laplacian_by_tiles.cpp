@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/number_text.h"
+#include "pipeline/cloud_options.h"
+#include "tiles/passes_scaling.h"
+#include "tiles/sorted_points.h"
+#include "tiles/tile.h"
+#include "tufted/errors.h"
+#include "tufted/tiles.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* function_name = "laplacianByTiles";
+/// Bytes per point that a build holds at most, with its rows.
+constexpr double point_bytes = 1200;
+/// Bytes that a tile takes whatever its points: batches of points, and arrays of the cells.
+constexpr double fixed_bytes = 200e6;
+/// Share of the points in memory that a tile owns; the others are its margin.
+constexpr double own_share = 0.6;
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw InvalidInput(std::string(function_name) + ": " + text);
+}
+
+void checkOptions(const TileOptions& options) {
+  const CloudOptions& cloud = options.cloud;
+  checkCloudOptions(
+      function_name, Points(0, 3),
+      {.neighbors = cloud.neighbors, .mollify = cloud.mollify, .threads = cloud.threads, .paper = cloud.paper});
+  if (options.tiles < 0) refuse("tiles = " + std::to_string(options.tiles) + ", must be >= 0");
+  if (!(options.memory > fixed_bytes))
+    refuse("memory = " + numberText(options.memory) + " bytes, must be more than " + numberText(fixed_bytes));
+  if (cloud.normals != nullptr || cloud.neighborhoods != nullptr || cloud.structure != nullptr ||
+      cloud.viewpoint != nullptr)
+    refuse("normals, neighborhoods, structure and viewpoint must be null");
+  if (cloud.steps.denoise) refuse("denoise = true, must be false: noise is not yet found by tiles");
+  if (cloud.paper.gluing != Gluing::star || cloud.paper.order != FaceOrder::angle)
+    refuse("gluing and order of the paper must be star and angle: others need a whole cover");
+}
+
+/// The last cell of each tile, for tiles of about equally many points.
+std::vector<int> planTiles(const Cells& cells, std::int64_t tiles) {
+  std::vector<int> ends;
+  const std::int64_t all = cells.begin(cells.size());
+  for (int cell = 0; cell < cells.size(); ++cell) {
+    const auto tile = std::ssize(ends) + 1;
+    if (cells.begin(cell + 1) >= all / tiles * tile + std::min(tile, all % tiles)) ends.push_back(cell + 1);
+  }
+  return ends;
+}
+
+/// Builds tiles and hands out their rows.
+class TileBuilds {
+ public:
+  TileBuilds(const SortedPoints& points, const Scaling& scaling, const TileOptions& options,
+             const std::function<void(const TileRows&)>& take)
+      : points_(points), scaling_(scaling), options_(options), take_(take) {
+    const std::int64_t all = points.cells().begin(points.cells().size());
+    most_points_ = static_cast<std::int64_t>((options.memory - fixed_bytes) / point_bytes);
+    const double own = static_cast<double>(most_points_) * (all <= most_points_ ? 1 : own_share);
+    const auto fitting = static_cast<std::int64_t>(std::ceil(static_cast<double>(all) / own));
+    ends_ = planTiles(points.cells(), std::max<std::int64_t>(1, options.tiles > 0 ? options.tiles : fitting));
+    tiles_.resize(ends_.size());
+  }
+
+  TileReport buildAll() {
+    for (std::size_t number = 0; number < tiles_.size(); ++number) build(number);
+    // A star far away, such as that of an outlier, may have triangles with points of a tile that cannot know that.
+    while (requireMore()) {
+    }
+    return report();
+  }
+
+ private:
+  /// What is known of a tile that was built.
+  struct Built {
+    std::vector<int> needed;    ///< see Tile::neededCells()
+    std::vector<int> required;  ///< see Tile
+    std::int64_t held = 0;
+    TileReport counts;
+  };
+
+  bool requireMore() {
+    std::sort(far_pairs_.begin(), far_pairs_.end());
+    far_pairs_.erase(std::unique(far_pairs_.begin(), far_pairs_.end()), far_pairs_.end());
+    bool any = false;
+    for (std::size_t number = 0; number < tiles_.size(); ++number) {
+      Built& tile = tiles_[number];
+      const auto needs = [&](int cell) { return std::binary_search(tile.needed.begin(), tile.needed.end(), cell); };
+      const std::size_t before = tile.required.size();
+      for (const auto& [from, to] : far_pairs_)
+        if (needs(to) && !needs(from)) tile.required.push_back(from);
+      if (tile.required.size() == before) continue;
+      build(number);
+      any = true;
+    }
+    return any;
+  }
+
+  void build(std::size_t number) {
+    if (options_.progress &&
+        !options_.progress("tiles", static_cast<double>(number) / static_cast<double>(tiles_.size())))
+      throw Cancelled("cancelled");
+    Built& built = tiles_[number];
+    Tile tile(points_, scaling_, number == 0 ? 0 : ends_[number - 1], ends_[number], built.required);
+    bool is_complete = false;
+    while (!is_complete) {
+      if (tile.heldPoints() > most_points_) refuseLarge(number, tile.heldPoints());
+      most_held_ = std::max(most_held_, tile.heldPoints());
+      ++builds_;
+      is_complete = tile.build(options_.cloud);
+      if (!is_complete) tile.widen();
+    }
+    built.needed = tile.neededCells();
+    built.held = tile.heldPoints();
+    far_pairs_.insert(far_pairs_.end(), tile.farPairs().begin(), tile.farPairs().end());
+    const TileRows rows = tile.rows();
+    built.counts = countsOf(rows);
+    take_(rows);
+  }
+
+  [[noreturn]] void refuseLarge(std::size_t number, std::int64_t held) const {
+    refuse("tile " + std::to_string(number + 1) + " of " + std::to_string(tiles_.size()) + " holds " +
+           std::to_string(held) + " points with its margin, must be at most " + std::to_string(most_points_) +
+           " with memory = " + numberText(options_.memory) + " bytes: give more memory, " +
+           (options_.tiles > 0 ? "or more tiles" : "or remove points far from the surface"));
+  }
+
+  static TileReport countsOf(const TileRows& rows) {
+    TileReport counts;
+    for (const PointStatus status : rows.status) {
+      counts.active += status == PointStatus::active ? 1 : 0;
+      counts.coincident += status == PointStatus::coincident ? 1 : 0;
+      counts.isolated += status == PointStatus::isolated ? 1 : 0;
+    }
+    counts.nonzeros = std::ssize(rows.column);
+    counts.area = rows.M.sum();
+    return counts;
+  }
+
+  TileReport report() const {
+    TileReport report;
+    std::int64_t held = 0;
+    for (const Built& tile : tiles_) {
+      report.active += tile.counts.active;
+      report.coincident += tile.counts.coincident;
+      report.isolated += tile.counts.isolated;
+      report.nonzeros += tile.counts.nonzeros;
+      report.area += tile.counts.area;
+      held += tile.held;
+    }
+    const std::int64_t sorted = points_.cells().begin(points_.cells().size());
+    report.cells = points_.cells().size();
+    report.tiles = static_cast<int>(tiles_.size());
+    report.builds = builds_;
+    report.most_points = most_held_;
+    report.margin = sorted > 0 ? static_cast<double>(held) / static_cast<double>(sorted) - 1 : 0;
+    return report;
+  }
+
+  const SortedPoints& points_;
+  const Scaling& scaling_;
+  const TileOptions& options_;
+  const std::function<void(const TileRows&)>& take_;
+  std::int64_t most_points_ = 0, most_held_ = 0;
+  int builds_ = 0;
+  std::vector<int> ends_;
+  std::vector<Built> tiles_;
+  std::vector<std::pair<int, int>> far_pairs_;  ///< see Tile::farPairs(), of all tiles
+};
+
+}  // namespace
+
+PointSource sourceOf(const PointsRef& points) {
+  return {points.rows(), [points](const auto& take) { take(points); }};
+}
+
+TileReport laplacianByTiles(const PointSource& source, const TileOptions& options,
+                            const std::function<void(const TileRows&)>& take) {
+  checkOptions(options);
+  const Scaling scaling = measureScaling(source);
+  const SortedPoints points(source, scaling, options.folder);
+  TileReport report = TileBuilds(points, scaling, options, take).buildAll();
+  report.points = source.size;
+  report.not_finite = source.size - points.cells().begin(points.cells().size());
+  return report;
+}
+
+}  // namespace tufted

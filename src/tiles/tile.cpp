@@ -1,0 +1,296 @@
+#include "tiles/tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/power_of_two.h"
+#include "cover/geometry.h"
+#include "direct/star_union.h"
+#include "stars/gaps.h"
+#include "stars/surface_stars.h"
+
+namespace tufted {
+namespace {
+
+/// Cells around its own ones that a tile holds at first: two for the points on whose stars rows depend, one for stars
+/// that have triangles with these, and one for their searches. More are taken where that is not enough.
+constexpr int first_margin = 4;
+/// Triangles between a point and the farthest one whose star may change its row, if no edge flips: the stars of its
+/// link vertices have triangles with it, and triangles are glued by all stars that have their edge.
+constexpr int usual_hops = 2;
+/// The triangles of a star depend further on the corners of the quadrilaterals whose diagonals are settled, and whether
+/// these are settled on the corners of the quadrilaterals beside them.
+constexpr int hops_of_settled = 2;
+/// Points per asked neighbour that a tile holds at least: neighbourhoods grow to 8 k, stars to 8 times these. A search
+/// that found fewer points than it asked for would not know what it missed.
+constexpr std::int64_t most_asked = 64;
+
+double circumradius(const double* length) {
+  return length[0] * length[1] * length[2] / (4 * triangleArea(length[0], length[1], length[2]));
+}
+
+CellBox boxOf(const RankedCloud& cloud, int p) {
+  return CellBox::of(cloud.points.row(p).transpose().array());
+}
+
+void sortUnique(std::vector<int>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+}  // namespace
+
+Tile::Tile(const SortedPoints& points, const Scaling& whole, int first, int last, std::vector<int> required)
+    : CloudPart(whole),
+      points_(points),
+      cells_(points.cells()),
+      first_(first),
+      last_(last),
+      required_(std::move(required)),
+      is_held_(static_cast<std::size_t>(cells_.size())) {
+  for (int cell = first; cell < last; ++cell) hold(cell);
+  lacking_ = required_;
+  for (int ring = 0; ring < first_margin; ++ring) {
+    for (int cell = 0; cell < cells_.size(); ++cell)
+      if (is_held_[cell] != 0) lacking_.push_back(cell);
+    widen();
+  }
+}
+
+void Tile::hold(int cell) {
+  if (is_held_[cell] != 0) return;
+  is_held_[cell] = 1;
+  held_points_ += cells_.points(cell);
+}
+
+void Tile::widen() {
+  sortUnique(lacking_);
+  for (const int cell : lacking_) {
+    hold(cell);
+    cells_.visitNear(cell, [&](int near) { hold(near); });
+  }
+  lacking_.clear();
+  is_whole_ = held_points_ == cells_.begin(cells_.size());
+}
+
+void Tile::readPoints() {
+  std::vector<StoredPoint> stored;
+  stored.reserve(static_cast<std::size_t>(held_points_));
+  cell_of_.clear();
+  for (int cell = 0; cell < cells_.size();) {
+    int end = cell;
+    for (; end < cells_.size() && is_held_[end] != 0; ++end)
+      cell_of_.insert(cell_of_.end(), static_cast<std::size_t>(cells_.points(end)), end);
+    points_.read(cell, end, stored);
+    cell = end + 1;
+  }
+  positions_.resize(std::ssize(stored), 3);
+  number_.resize(stored.size());
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    positions_.row(static_cast<Eigen::Index>(i)) = Eigen::Map<const Eigen::RowVector3d>(stored[i].position);
+    number_[i] = stored[i].number;
+  }
+}
+
+bool Tile::build(const CloudOptions& options) {
+  readPoints();
+  hops_ = usual_hops + (options.steps.settle_diagonals ? hops_of_settled : 0);
+  isolates_ = options.steps.isolate_outliers;
+  CloudOptions used = options;
+  used.keep_cover = true;  // for the radii of its faces
+  result_ = {};
+  buildCloudLaplacian(positions_, used, CloudBuild::automatic, result_, this);
+  needed_.clear();
+  if (is_whole_) return true;
+  if (result_.report.active + result_.report.isolated <= most_asked * options.neighbors) {
+    for (int cell = 0; cell < cells_.size(); ++cell)
+      if (is_held_[cell] != 0) lacking_.push_back(cell);
+    return false;
+  }
+  addFaceRadii();
+  return isComplete();
+}
+
+bool Tile::holdsAround(const CellBox& box, double radius) const {
+  bool holds = true;
+  cells_.visit(box, radius, [&](int cell) { holds = holds && is_held_[cell] != 0; });
+  return holds;
+}
+
+void Tile::takeStars(const SurfaceStars& built, const RankedCloud& cloud) {
+  if (is_whole_) return;
+  cell_by_rank_.resize(static_cast<std::size_t>(cloud.size()));
+  for (int p = 0; p < cloud.size(); ++p) cell_by_rank_[p] = cell_of_[cloud.input_index[p]];
+  findCertainStars(built, cloud);
+  findLacking(built, cloud);
+  measureDependence(built, cloud);
+  findPairs(built);
+}
+
+void Tile::findCertainStars(const SurfaceStars& built, const RankedCloud& cloud) {
+  is_certain_.assign(cell_by_rank_.size(), 1);
+  for (int p = 0, end = 0; p < cloud.size(); p = end) {
+    double reach = 0;
+    for (end = p; end < cloud.size() && cell_by_rank_[end] == cell_by_rank_[p]; ++end)
+      reach = std::max(reach, built.support.reach[end]);
+    if (holdsAround(cells_.box(cell_by_rank_[p]), reach)) continue;
+    for (int q = p; q < end; ++q) {
+      is_certain_[q] = holdsAround(boxOf(cloud, q), built.support.reach[q]) ? 1 : 0;
+    }
+  }
+}
+
+void Tile::findLacking(const SurfaceStars& built, const RankedCloud& cloud) {
+  const Stars& stars = built.stars;
+  const RawBuffer<double>& fit_radius = built.support.fit_radius;
+  is_sure_ = is_held_;
+  lacks_.clear();
+  std::vector<std::vector<int>> lacks(is_held_.size());  // what lets the stars of a cell be uncertain
+  for (int p = 0; p < cloud.size(); ++p) {
+    if (is_certain_[p] != 0) continue;
+    is_sure_[cell_by_rank_[p]] = 0;
+    cells_.visit(boxOf(cloud, p), built.support.reach[p], [&](int other) {
+      if (is_held_[other] == 0) lacks[cell_by_rank_[p]].push_back(other);
+    });
+  }
+  const std::vector<std::uint8_t> has_certain = is_sure_;
+  for (int p = 0, end = 0; p < cloud.size(); p = end) {
+    const int cell = cell_by_rank_[p];
+    // A filtered star depends on the neighbourhoods of its link vertices, and these are isolated by those of their
+    // neighbours.
+    double farthest = 0;
+    for (end = p; end < cloud.size() && cell_by_rank_[end] == cell; ++end) {
+      farthest = std::max(farthest, isolates_ ? fit_radius[end] : 0);
+      for (int i = stars.offset[end]; i < stars.offset[end + 1]; ++i) {
+        const int q = stars.link[i];
+        const double length = (cloud.points.row(q) - cloud.points.row(end)).norm();
+        farthest = std::max(farthest, length + (isolates_ ? fit_radius[q] : 0));
+      }
+    }
+    std::vector<int> all;
+    cells_.visit(cells_.box(cell), farthest, [&](int other) {
+      if (is_held_[other] == 0) all.push_back(other);
+      if (has_certain[other] != 0) return;
+      is_sure_[cell] = 0;
+      all.insert(all.end(), lacks[other].begin(), lacks[other].end());
+    });
+    if (is_sure_[cell] != 0) continue;
+    sortUnique(all);
+    lacks_.emplace_back(cell, std::move(all));
+  }
+}
+
+void Tile::measureDependence(const SurfaceStars& built, const RankedCloud& cloud) {
+  const Stars& stars = built.stars;
+  std::vector<double> reach(static_cast<std::size_t>(cloud.size())), farther;
+  for (int hop = 0; hop < hops_; ++hop) {
+    farther = reach;
+    for (int p = 0; p < cloud.size(); ++p) {
+      forEachTriangle(stars, p, [&](int a, int b) {
+        for (const int q : {a, b}) {
+          const double length = (cloud.points.row(q) - cloud.points.row(p)).norm();
+          farther[p] = std::max(farther[p], length + reach[q]);
+          farther[q] = std::max(farther[q], length + reach[p]);
+        }
+      });
+    }
+    reach.swap(farther);
+  }
+  dependence_.assign(static_cast<std::size_t>(last_ - first_), 0);
+  for (int p = 0; p < cloud.size(); ++p) {
+    const int cell = cell_by_rank_[p];
+    if (!isOwn(cell)) continue;
+    // The label of the boundary depends on the stars in the gap.
+    const double needed = stars.ends[p] != 0 ? std::max(reach[p], built.support.reach[p]) : reach[p];
+    dependence_[cell - first_] = std::max(dependence_[cell - first_], needed);
+  }
+}
+
+void Tile::findPairs(const SurfaceStars& built) {
+  far_pairs_.clear();
+  doubtful_pairs_.clear();
+  const auto add = [&](int p, int q) {
+    const int from = cell_by_rank_[p], to = cell_by_rank_[q];
+    if (from == to || cells_.areNear(from, to)) return;
+    if (isOwn(from)) far_pairs_.emplace_back(from, to);
+    if (is_sure_[from] == 0) doubtful_pairs_.emplace_back(from, to);
+  };
+  for (int p = 0; p < built.stars.size(); ++p)
+    forEachTriangle(built.stars, p, [&](int a, int b) { add(p, a), add(p, b); });
+}
+
+void Tile::addFaceRadii() {
+  std::vector<double> radius(dependence_.size());
+  const auto add = [&](int cell, double r) {
+    if (isOwn(cell)) radius[cell - first_] = std::max(radius[cell - first_], r);
+  };
+  if (const auto stars = std::dynamic_pointer_cast<const StarUnion>(result_.cover_source)) {
+    stars->forEachFace([&](const std::array<int, 3>& corners, const double* length) {
+      for (const int p : corners) add(cell_by_rank_[p], circumradius(length));
+    });
+  } else {
+    const IntrinsicTriangulation& cover = result_.cover();
+    const PowerOfTwo unit = scaling().toScaled();
+    for (std::size_t f = 0; f < cover.faces.size(); ++f) {
+      const double r = unit.times(circumradius(cover.length.data() + 3 * f));
+      for (const int i : cover.faces[f]) add(cell_of_[i], r);
+    }
+  }
+  // An empty circle lies within its diameter of each corner.
+  for (std::size_t i = 0; i < radius.size(); ++i) dependence_[i] += 2 * radius[i];
+}
+
+bool Tile::isComplete() {
+  std::vector<std::uint8_t> is_needed(is_held_.size());
+  std::vector<int> reached = required_;
+  for (int cell = first_; cell < last_; ++cell)
+    cells_.visit(cells_.box(cell), dependence_[cell - first_], [&](int other) {
+      if (std::exchange(is_needed[other], 1) == 0) reached.push_back(other);
+    });
+  // Any star may have triangles with points of the cells beside its own.
+  for (const int cell : reached) cells_.visitNear(cell, [&](int near) { is_needed[near] = 1; });
+  for (int cell = 0; cell < cells_.size(); ++cell) {
+    if (is_needed[cell] == 0) continue;
+    needed_.push_back(cell);
+    if (is_held_[cell] == 0) lacking_.push_back(cell);
+  }
+  const auto lackFor = [&](int cell) {
+    const auto found = std::lower_bound(lacks_.begin(), lacks_.end(), std::pair(cell, std::vector<int>()));
+    if (found != lacks_.end() && found->first == cell)
+      lacking_.insert(lacking_.end(), found->second.begin(), found->second.end());
+  };
+  for (const int cell : needed_) lackFor(cell);
+  for (const auto& [from, to] : doubtful_pairs_)
+    if (is_needed[to] != 0) lackFor(from);
+  return lacking_.empty();
+}
+
+TileRows Tile::rows() const {
+  TileRows rows;
+  std::vector<Eigen::Index> own;
+  for (std::size_t i = 0; i < cell_of_.size(); ++i)
+    if (isOwn(cell_of_[i])) own.push_back(static_cast<Eigen::Index>(i));
+  rows.M = result_.M(own);
+  rows.normals = result_.frames.normals(own, Eigen::all);
+  rows.begin.push_back(0);
+  std::vector<std::pair<std::int64_t, double>> entries;
+  for (const Eigen::Index i : own) {
+    rows.point.push_back(number_[i]);
+    rows.representative.push_back(number_[result_.representative[i]]);
+    rows.status.push_back(result_.status[i]);
+    rows.boundary.push_back(result_.boundary[i]);
+    entries.clear();
+    for (SparseMatrix::InnerIterator entry(result_.L, i); entry; ++entry)
+      entries.emplace_back(number_[entry.row()], entry.value());
+    std::sort(entries.begin(), entries.end());
+    for (const auto& [column, value] : entries) {
+      rows.column.push_back(column);
+      rows.value.push_back(value);
+    }
+    rows.begin.push_back(std::ssize(rows.column));
+  }
+  return rows;
+}
+
+}  // namespace tufted
