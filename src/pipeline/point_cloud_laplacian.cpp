@@ -78,6 +78,7 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   SurfaceStars built = std::move(surface.built);
   if (part != nullptr) part->takeStars(built, cloud);
   release(built.support.reach);
+  release(built.support.boundary_reach);
   if (std::ssize(built.stars.link) > most_entries) tooMany(cloud.size(), std::ssize(built.stars.link));
 
   // Normals, their orientation, and the positions between which lengths are measured.

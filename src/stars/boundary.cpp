@@ -70,7 +70,7 @@ class BoundaryFinder {
     if (stars_.ends[p] == 0) return Boundary::none;
     if (!hasTriangles(stars_, p)) return Boundary::lost;
     source_.nearest(points_, p, search_factor * source_.k, state.near, NeighborOrder::any, &state.before);
-    if (source_.search != nullptr) support_.reach[p] = std::max(support_.reach[p], state.before.radius);
+    if (source_.search != nullptr) support_.boundary_reach[p] = state.before.radius;
     const Eigen::Vector3d normal = support_.normals.row(p);
     const Boundary along_normal = lookBeyond(p, View::along_normal, Chart(points_, p, normal), state);
     if (!seen_ || along_normal == Boundary::jump) return along_normal;
@@ -136,6 +136,7 @@ Buffer<Boundary> findBoundary(BuiltStars& built, const RankedCloud& cloud, const
                               const Eigen::Vector3d* viewpoint, const Workers& workers) {
   const Stars& stars = built.stars;
   Buffer<Boundary> boundary(stars.size(), Boundary::none);
+  built.support.boundary_reach.assign(stars.size(), 0);
   BoundaryFinder finder(built, cloud.points, source);
   const auto scaled = [&](double x) { return std::clamp(std::ldexp(x, -cloud.exponent), -infinity, infinity); };
   const bool any = std::any_of(stars.ends.begin(), stars.ends.end(), [](std::uint8_t ends) { return ends != 0; });

@@ -107,7 +107,8 @@ class TileBuilds {
         !options_.progress("tiles", static_cast<double>(number) / static_cast<double>(tiles_.size())))
       throw Cancelled("cancelled");
     Built& built = tiles_[number];
-    Tile tile(points_, scaling_, number == 0 ? 0 : ends_[number - 1], ends_[number], built.required);
+    Tile tile(points_, scaling_, number == 0 ? 0 : ends_[number - 1], ends_[number], options_.cloud.neighbors,
+              built.required);
     bool is_complete = false;
     while (!is_complete) {
       if (tile.heldPoints() > most_points_) refuseLarge(number, tile.heldPoints());

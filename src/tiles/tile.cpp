@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "base/power_of_two.h"
 #include "cover/geometry.h"
@@ -13,9 +14,8 @@
 namespace tufted {
 namespace {
 
-/// Cells around its own ones that a tile holds at first: two for the points on whose stars rows depend, one for stars
-/// that have triangles with these, and one for their searches. More are taken where that is not enough.
-constexpr int first_margin = 4;
+/// At rims 8 k points are searched for what lies beyond, in half a plane.
+constexpr double points_at_rim = 16;
 /// Triangles between a point and the farthest one whose star may change its row, if no edge flips: the stars of its
 /// link vertices have triangles with it, and triangles are glued by all stars that have their edge.
 constexpr int usual_hops = 2;
@@ -41,7 +41,8 @@ void sortUnique(std::vector<int>& cells) {
 
 }  // namespace
 
-Tile::Tile(const SortedPoints& points, const Scaling& whole, int first, int last, std::vector<int> required)
+Tile::Tile(const SortedPoints& points, const Scaling& whole, int first, int last, int neighbors,
+           std::vector<int> required)
     : CloudPart(whole),
       points_(points),
       cells_(points.cells()),
@@ -50,12 +51,17 @@ Tile::Tile(const SortedPoints& points, const Scaling& whole, int first, int last
       required_(std::move(required)),
       is_held_(static_cast<std::size_t>(cells_.size())) {
   for (int cell = first; cell < last; ++cell) hold(cell);
-  lacking_ = required_;
-  for (int ring = 0; ring < first_margin; ++ring) {
-    for (int cell = 0; cell < cells_.size(); ++cell)
-      if (is_held_[cell] != 0) lacking_.push_back(cell);
-    widen();
-  }
+  for (int cell = 0; cell < cells_.size(); ++cell)
+    if (is_held_[cell] != 0) lacking_.push_back(cell);
+  lacking_.insert(lacking_.end(), required_.begin(), required_.end());
+  widen(firstMargin(neighbors));
+}
+
+int Tile::firstMargin(int neighbors) const {
+  const double mean = static_cast<double>(cells_.begin(cells_.size())) / cells_.size();
+  const double cells = std::sqrt(points_at_rim * neighbors / std::numbers::pi / mean);
+  // One more for stars that have triangles with the points of these cells, and one because cells are not cut.
+  return 2 + static_cast<int>(std::min(std::ceil(cells), 1.0 * neighbors));
 }
 
 void Tile::hold(int cell) {
@@ -65,10 +71,22 @@ void Tile::hold(int cell) {
 }
 
 void Tile::widen() {
+  widen(next_width_);
+  next_width_ *= 2;
+}
+
+void Tile::widen(int width) {
   sortUnique(lacking_);
-  for (const int cell : lacking_) {
-    hold(cell);
-    cells_.visitNear(cell, [&](int near) { hold(near); });
+  for (const int cell : lacking_) hold(cell);
+  for (int ring = 0; ring < width; ++ring) {
+    std::vector<int> next;
+    for (const int cell : lacking_) {
+      cells_.visitNear(cell, [&](int near) {
+        if (is_held_[near] == 0) next.push_back(near);
+        hold(near);
+      });
+    }
+    lacking_.swap(next);
   }
   lacking_.clear();
   is_whole_ = held_points_ == cells_.begin(cells_.size());
@@ -143,7 +161,6 @@ void Tile::findCertainStars(const SurfaceStars& built, const RankedCloud& cloud)
 
 void Tile::findLacking(const SurfaceStars& built, const RankedCloud& cloud) {
   const Stars& stars = built.stars;
-  const RawBuffer<double>& fit_radius = built.support.fit_radius;
   is_sure_ = is_held_;
   lacks_.clear();
   std::vector<std::vector<int>> lacks(is_held_.size());  // what lets the stars of a cell be uncertain
@@ -157,27 +174,25 @@ void Tile::findLacking(const SurfaceStars& built, const RankedCloud& cloud) {
   const std::vector<std::uint8_t> has_certain = is_sure_;
   for (int p = 0, end = 0; p < cloud.size(); p = end) {
     const int cell = cell_by_rank_[p];
-    // A filtered star depends on the neighbourhoods of its link vertices, and these are isolated by those of their
-    // neighbours.
-    double farthest = 0;
-    for (end = p; end < cloud.size() && cell_by_rank_[end] == cell; ++end) {
-      farthest = std::max(farthest, isolates_ ? fit_radius[end] : 0);
-      for (int i = stars.offset[end]; i < stars.offset[end + 1]; ++i) {
-        const int q = stars.link[i];
-        const double length = (cloud.points.row(q) - cloud.points.row(end)).norm();
-        farthest = std::max(farthest, length + (isolates_ ? fit_radius[q] : 0));
-      }
-    }
     std::vector<int> all;
-    cells_.visit(cells_.box(cell), farthest, [&](int other) {
+    const auto need = [&](int other) {
       if (is_held_[other] == 0) all.push_back(other);
       if (has_certain[other] != 0) return;
       is_sure_[cell] = 0;
       all.insert(all.end(), lacks[other].begin(), lacks[other].end());
-    });
-    if (is_sure_[cell] != 0) continue;
-    sortUnique(all);
-    lacks_.emplace_back(cell, std::move(all));
+    };
+    // A filtered star depends on the neighbourhoods of its link vertices, and whether these are isolated on those of
+    // their neighbours.
+    const auto needNeighbors = [&](int q) {
+      if (is_certain_[q] == 0) need(cell_by_rank_[q]);
+      if (isolates_) cells_.visit(boxOf(cloud, q), built.support.fit_radius[q], need);
+    };
+    for (end = p; end < cloud.size() && cell_by_rank_[end] == cell; ++end) {
+      needNeighbors(end);
+      for (int i = stars.offset[end]; i < stars.offset[end + 1]; ++i) needNeighbors(stars.link[i]);
+      if (is_sure_[cell] == 0) sortUnique(all);
+    }
+    if (is_sure_[cell] == 0) lacks_.emplace_back(cell, std::move(all));
   }
 }
 
@@ -202,8 +217,7 @@ void Tile::measureDependence(const SurfaceStars& built, const RankedCloud& cloud
     const int cell = cell_by_rank_[p];
     if (!isOwn(cell)) continue;
     // The label of the boundary depends on the stars in the gap.
-    const double needed = stars.ends[p] != 0 ? std::max(reach[p], built.support.reach[p]) : reach[p];
-    dependence_[cell - first_] = std::max(dependence_[cell - first_], needed);
+    dependence_[cell - first_] = std::max({dependence_[cell - first_], reach[p], built.support.boundary_reach[p]});
   }
 }
 

@@ -22,10 +22,11 @@ namespace tufted {
 class Tile final : public CloudPart {
  public:
   /// @param first, last the tile's own cells, [first, last)
+  /// @param neighbors k
   /// @param required cells whose stars must be certain although the tile did not see that they reach its own points
-  Tile(const SortedPoints& points, const Scaling& whole, int first, int last, std::vector<int> required);
+  Tile(const SortedPoints& points, const Scaling& whole, int first, int last, int neighbors, std::vector<int> required);
 
-  /// Holds the cells that the last build lacked; the margin at first.
+  /// Holds the cells that the last build lacked, and ever more around these.
   void widen();
   std::int64_t heldPoints() const { return held_points_; }
 
@@ -44,6 +45,9 @@ class Tile final : public CloudPart {
 
  private:
   bool isOwn(int cell) const { return cell >= first_ && cell < last_; }
+  int firstMargin(int neighbors) const;
+  /// Holds the cells that are lacking, and those up to `width` cells from them.
+  void widen(int width);
   void hold(int cell);
   void readPoints();
   /// Whether all cells at most `radius` from a box are held.
@@ -65,6 +69,7 @@ class Tile final : public CloudPart {
   std::vector<int> lacking_;  ///< cells to hold in the next build
   bool isolates_ = false;     ///< whether outliers are isolated
   bool is_whole_ = false;     ///< whether all cells are held
+  int next_width_ = 1;        ///< of the next widen()
   int hops_ = 0;              ///< how many triangles away a star may change a row
 
   Points positions_;                  ///< of the points that are held

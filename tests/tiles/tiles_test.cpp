@@ -68,8 +68,9 @@ void expectSame(const Laplacian& part, const Laplacian& whole) {
       worst = std::max(worst, std::abs(a.value() - b.value()) / larger);
     }
     ASSERT_EQ(static_cast<bool>(a), static_cast<bool>(b)) << i;
-    if (whole.status[i] == PointStatus::active)
+    if (whole.status[i] == PointStatus::active) {
       ASSERT_NEAR(std::abs(part.frames.normals.row(i).dot(whole.frames.normals.row(i))), 1, 1e-12);
+    }
   }
   printf("worst %g mass %g\n", worst, worst_mass);
 }
