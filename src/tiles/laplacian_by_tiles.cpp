@@ -65,11 +65,17 @@ class TileBuilds {
     const double own = static_cast<double>(most_points_) * (all <= most_points_ ? 1 : own_share);
     const auto fitting = static_cast<std::int64_t>(std::ceil(static_cast<double>(all) / own));
     ends_ = planTiles(points.cells(), std::max<std::int64_t>(1, options.tiles > 0 ? options.tiles : fitting));
-    tiles_.resize(ends_.size());
   }
 
   TileReport buildAll() {
-    for (std::size_t number = 0; number < tiles_.size(); ++number) build(number);
+    for (std::size_t number = 0; number < ends_.size(); ++number) {
+      if (options_.progress &&
+          !options_.progress("tiles", static_cast<double>(number) / static_cast<double>(ends_.size())))
+        throw Cancelled("laplacianByTiles: cancelled");
+      TileTask task;
+      for (int cell = number == 0 ? 0 : ends_[number - 1]; cell < ends_[number]; ++cell) task.own.push_back(cell);
+      build(std::move(task));
+    }
     // A star far away, such as that of an outlier, may have triangles with points of a tile that cannot know that.
     while (requireMore()) {
     }
@@ -77,59 +83,59 @@ class TileBuilds {
   }
 
  private:
-  /// What is known of a tile that was built.
+  /// Rows that were built.
   struct Built {
-    std::vector<int> needed;    ///< see Tile::neededCells()
-    std::vector<int> required;  ///< see Tile
-    std::int64_t held = 0;
+    TileTask task;            ///< of building them again
+    std::vector<int> needed;  ///< see Tile::neededCells()
     TileReport counts;
   };
 
+  /// Builds rows again that depend on stars of which their tile did not know. Returns whether there were any.
   bool requireMore() {
     std::sort(far_pairs_.begin(), far_pairs_.end());
     far_pairs_.erase(std::unique(far_pairs_.begin(), far_pairs_.end()), far_pairs_.end());
-    bool any = false;
-    for (std::size_t number = 0; number < tiles_.size(); ++number) {
-      Built& tile = tiles_[number];
-      const auto needs = [&](int cell) { return std::binary_search(tile.needed.begin(), tile.needed.end(), cell); };
-      const std::size_t before = tile.required.size();
+    std::vector<TileTask> again;
+    for (std::size_t i = 0; i < built_.size();) {
+      Built& built = built_[i];
+      const auto needs = [&](int cell) { return std::binary_search(built.needed.begin(), built.needed.end(), cell); };
+      const std::size_t before = built.task.required.size();
       for (const auto& [from, to] : far_pairs_)
-        if (needs(to) && !needs(from)) tile.required.push_back(from);
-      if (tile.required.size() == before) continue;
-      build(number);
-      any = true;
+        if (needs(to) && !needs(from)) built.task.required.push_back(from);
+      if (built.task.required.size() == before) {
+        ++i;
+        continue;
+      }
+      again.push_back(std::move(built.task));
+      built = std::move(built_.back());
+      built_.pop_back();
     }
-    return any;
+    for (TileTask& task : again) build(std::move(task));
+    return !again.empty();
   }
 
-  void build(std::size_t number) {
-    if (options_.progress &&
-        !options_.progress("tiles", static_cast<double>(number) / static_cast<double>(tiles_.size())))
-      throw Cancelled("cancelled");
-    Built& built = tiles_[number];
-    Tile tile(points_, scaling_, number == 0 ? 0 : ends_[number - 1], ends_[number], options_.cloud.neighbors,
-              built.required);
-    bool is_complete = false;
-    while (!is_complete) {
-      if (tile.heldPoints() > most_points_) refuseLarge(number, tile.heldPoints());
+  void build(TileTask task) {
+    while (!task.own.empty()) {
+      Tile tile(points_, scaling_, std::move(task));
+      tile.holdMargin(options_.cloud);
+      if (tile.heldPoints() > most_points_) refuseLarge(tile.heldPoints());
       most_held_ = std::max(most_held_, tile.heldPoints());
+      all_held_ += tile.heldPoints();
       ++builds_;
-      is_complete = tile.build(options_.cloud);
-      if (!is_complete) tile.widen();
+      tile.build(options_.cloud);
+      for (const auto& pair : tile.farPairs())
+        if (std::binary_search(tile.complete().begin(), tile.complete().end(), pair.first)) far_pairs_.push_back(pair);
+      const TileRows rows = tile.rows();
+      task = tile.rest();
+      if (rows.point.empty()) continue;
+      built_.push_back({{tile.complete(), task.required}, tile.neededCells(), countsOf(rows)});
+      take_(rows);
     }
-    built.needed = tile.neededCells();
-    built.held = tile.heldPoints();
-    far_pairs_.insert(far_pairs_.end(), tile.farPairs().begin(), tile.farPairs().end());
-    const TileRows rows = tile.rows();
-    built.counts = countsOf(rows);
-    take_(rows);
   }
 
-  [[noreturn]] void refuseLarge(std::size_t number, std::int64_t held) const {
-    refuse("tile " + std::to_string(number + 1) + " of " + std::to_string(tiles_.size()) + " holds " +
-           std::to_string(held) + " points with its margin, must be at most " + std::to_string(most_points_) +
-           " with memory = " + numberText(options_.memory) + " bytes: give more memory, " +
-           (options_.tiles > 0 ? "or more tiles" : "or remove points far from the surface"));
+  [[noreturn]] void refuseLarge(std::int64_t held) const {
+    refuse("a tile holds " + std::to_string(held) + " points with its margin, must be at most " +
+           std::to_string(most_points_) + " with memory = " + numberText(options_.memory) +
+           " bytes: give more memory, more tiles, or remove points far from the surface");
   }
 
   static TileReport countsOf(const TileRows& rows) {
@@ -146,21 +152,19 @@ class TileBuilds {
 
   TileReport report() const {
     TileReport report;
-    std::int64_t held = 0;
-    for (const Built& tile : tiles_) {
-      report.active += tile.counts.active;
-      report.coincident += tile.counts.coincident;
-      report.isolated += tile.counts.isolated;
-      report.nonzeros += tile.counts.nonzeros;
-      report.area += tile.counts.area;
-      held += tile.held;
+    for (const Built& built : built_) {
+      report.active += built.counts.active;
+      report.coincident += built.counts.coincident;
+      report.isolated += built.counts.isolated;
+      report.nonzeros += built.counts.nonzeros;
+      report.area += built.counts.area;
     }
     const std::int64_t sorted = points_.cells().begin(points_.cells().size());
     report.cells = points_.cells().size();
-    report.tiles = static_cast<int>(tiles_.size());
+    report.tiles = static_cast<int>(ends_.size());
     report.builds = builds_;
     report.most_points = most_held_;
-    report.margin = sorted > 0 ? static_cast<double>(held) / static_cast<double>(sorted) - 1 : 0;
+    report.margin = sorted > 0 ? static_cast<double>(all_held_) / static_cast<double>(sorted) - 1 : 0;
     return report;
   }
 
@@ -168,10 +172,10 @@ class TileBuilds {
   const Scaling& scaling_;
   const TileOptions& options_;
   const std::function<void(const TileRows&)>& take_;
-  std::int64_t most_points_ = 0, most_held_ = 0;
+  std::int64_t most_points_ = 0, most_held_ = 0, all_held_ = 0;
   int builds_ = 0;
   std::vector<int> ends_;
-  std::vector<Built> tiles_;
+  std::vector<Built> built_;
   std::vector<std::pair<int, int>> far_pairs_;  ///< see Tile::farPairs(), of all tiles
 };
 

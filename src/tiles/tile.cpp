@@ -14,8 +14,8 @@
 namespace tufted {
 namespace {
 
-/// At rims 8 k points are searched for what lies beyond, in half a plane.
-constexpr double points_at_rim = 16;
+/// At the corner of a rim 8 k points are searched in a quarter of the plane.
+constexpr double points_at_corner = 32;
 /// Triangles between a point and the farthest one whose star may change its row, if no edge flips: the stars of its
 /// link vertices have triangles with it, and triangles are glued by all stars that have their edge.
 constexpr int usual_hops = 2;
@@ -41,27 +41,28 @@ void sortUnique(std::vector<int>& cells) {
 
 }  // namespace
 
-Tile::Tile(const SortedPoints& points, const Scaling& whole, int first, int last, int neighbors,
-           std::vector<int> required)
+Tile::Tile(const SortedPoints& points, const Scaling& whole, TileTask task)
     : CloudPart(whole),
       points_(points),
       cells_(points.cells()),
-      first_(first),
-      last_(last),
-      required_(std::move(required)),
+      task_(std::move(task)),
+      is_own_(static_cast<std::size_t>(cells_.size())),
       is_held_(static_cast<std::size_t>(cells_.size())) {
-  for (int cell = first; cell < last; ++cell) hold(cell);
-  for (int cell = 0; cell < cells_.size(); ++cell)
-    if (is_held_[cell] != 0) lacking_.push_back(cell);
-  lacking_.insert(lacking_.end(), required_.begin(), required_.end());
-  widen(firstMargin(neighbors));
+  for (const int cell : task_.own) is_own_[cell] = 1;
 }
 
-int Tile::firstMargin(int neighbors) const {
+void Tile::holdMargin(const CloudOptions& options) {
+  std::vector<int> wanted = task_.own;
+  wanted.insert(wanted.end(), task_.required.begin(), task_.required.end());
   const double mean = static_cast<double>(cells_.begin(cells_.size())) / cells_.size();
-  const double cells = std::sqrt(points_at_rim * neighbors / std::numbers::pi / mean);
+  const double corner = std::sqrt(points_at_corner * options.neighbors / std::numbers::pi / mean);
   // One more for stars that have triangles with the points of these cells, and one because cells are not cut.
-  return 2 + static_cast<int>(std::min(std::ceil(cells), 1.0 * neighbors));
+  int margin = 2 + static_cast<int>(std::min(std::ceil(corner), 1.0 * options.neighbors));
+  margin += (options.steps.settle_diagonals ? 1 : 0) + (options.steps.isolate_outliers ? 1 : 0);
+  // The next build holds ever more, so that few builds are needed.
+  holdAround(wanted, margin * (task_.round + 1));
+  holdAround(task_.lacking, margin);
+  is_whole_ = held_points_ == cells_.begin(cells_.size());
 }
 
 void Tile::hold(int cell) {
@@ -70,26 +71,18 @@ void Tile::hold(int cell) {
   held_points_ += cells_.points(cell);
 }
 
-void Tile::widen() {
-  widen(next_width_);
-  next_width_ *= 2;
-}
-
-void Tile::widen(int width) {
-  sortUnique(lacking_);
-  for (const int cell : lacking_) hold(cell);
-  for (int ring = 0; ring < width; ++ring) {
+void Tile::holdAround(std::vector<int> cells, int width) {
+  for (const int cell : cells) hold(cell);
+  for (int ring = 0; ring < width && !cells.empty(); ++ring) {
     std::vector<int> next;
-    for (const int cell : lacking_) {
+    for (const int cell : cells) {
       cells_.visitNear(cell, [&](int near) {
         if (is_held_[near] == 0) next.push_back(near);
         hold(near);
       });
     }
-    lacking_.swap(next);
+    cells.swap(next);
   }
-  lacking_.clear();
-  is_whole_ = held_points_ == cells_.begin(cells_.size());
 }
 
 void Tile::readPoints() {
@@ -111,23 +104,25 @@ void Tile::readPoints() {
   }
 }
 
-bool Tile::build(const CloudOptions& options) {
+void Tile::build(const CloudOptions& options) {
   readPoints();
-  hops_ = usual_hops + (options.steps.settle_diagonals ? hops_of_settled : 0);
   isolates_ = options.steps.isolate_outliers;
+  hops_ = usual_hops + (options.steps.settle_diagonals ? hops_of_settled : 0);
   CloudOptions used = options;
   used.keep_cover = true;  // for the radii of its faces
   result_ = {};
   buildCloudLaplacian(positions_, used, CloudBuild::automatic, result_, this);
+  complete_.clear();
+  incomplete_.clear();
   needed_.clear();
-  if (is_whole_) return true;
-  if (result_.report.active + result_.report.isolated <= most_asked * options.neighbors) {
-    for (int cell = 0; cell < cells_.size(); ++cell)
-      if (is_held_[cell] != 0) lacking_.push_back(cell);
-    return false;
+  if (is_whole_) {
+    complete_ = task_.own;
+  } else if (result_.report.active + result_.report.isolated <= most_asked * options.neighbors) {
+    incomplete_ = lacking_ = task_.own;
+  } else {
+    addFaceRadii();
+    findComplete();
   }
-  addFaceRadii();
-  return isComplete();
 }
 
 bool Tile::holdsAround(const CellBox& box, double radius) const {
@@ -212,12 +207,12 @@ void Tile::measureDependence(const SurfaceStars& built, const RankedCloud& cloud
     }
     reach.swap(farther);
   }
-  dependence_.assign(static_cast<std::size_t>(last_ - first_), 0);
+  dependence_.assign(is_own_.size(), 0);
   for (int p = 0; p < cloud.size(); ++p) {
     const int cell = cell_by_rank_[p];
-    if (!isOwn(cell)) continue;
+    if (is_own_[cell] == 0) continue;
     // The label of the boundary depends on the stars in the gap.
-    dependence_[cell - first_] = std::max({dependence_[cell - first_], reach[p], built.support.boundary_reach[p]});
+    dependence_[cell] = std::max({dependence_[cell], reach[p], built.support.boundary_reach[p]});
   }
 }
 
@@ -227,7 +222,7 @@ void Tile::findPairs(const SurfaceStars& built) {
   const auto add = [&](int p, int q) {
     const int from = cell_by_rank_[p], to = cell_by_rank_[q];
     if (from == to || cells_.areNear(from, to)) return;
-    if (isOwn(from)) far_pairs_.emplace_back(from, to);
+    if (is_own_[from] != 0) far_pairs_.emplace_back(from, to);
     if (is_sure_[from] == 0) doubtful_pairs_.emplace_back(from, to);
   };
   for (int p = 0; p < built.stars.size(); ++p)
@@ -236,9 +231,7 @@ void Tile::findPairs(const SurfaceStars& built) {
 
 void Tile::addFaceRadii() {
   std::vector<double> radius(dependence_.size());
-  const auto add = [&](int cell, double r) {
-    if (isOwn(cell)) radius[cell - first_] = std::max(radius[cell - first_], r);
-  };
+  const auto add = [&](int cell, double r) { radius[cell] = std::max(radius[cell], r); };
   if (const auto stars = std::dynamic_pointer_cast<const StarUnion>(result_.cover_source)) {
     stars->forEachFace([&](const std::array<int, 3>& corners, const double* length) {
       for (const int p : corners) add(cell_by_rank_[p], circumradius(length));
@@ -255,36 +248,53 @@ void Tile::addFaceRadii() {
   for (std::size_t i = 0; i < radius.size(); ++i) dependence_[i] += 2 * radius[i];
 }
 
-bool Tile::isComplete() {
-  std::vector<std::uint8_t> is_needed(is_held_.size());
-  std::vector<int> reached = required_;
-  for (int cell = first_; cell < last_; ++cell)
-    cells_.visit(cells_.box(cell), dependence_[cell - first_], [&](int other) {
-      if (std::exchange(is_needed[other], 1) == 0) reached.push_back(other);
-    });
-  // Any star may have triangles with points of the cells beside its own.
-  for (const int cell : reached) cells_.visitNear(cell, [&](int near) { is_needed[near] = 1; });
-  for (int cell = 0; cell < cells_.size(); ++cell) {
-    if (is_needed[cell] == 0) continue;
-    needed_.push_back(cell);
-    if (is_held_[cell] == 0) lacking_.push_back(cell);
+void Tile::findComplete() {
+  std::vector<std::uint8_t> is_fit = is_sure_;
+  for (const auto& [from, to] : doubtful_pairs_) is_fit[to] = 0;
+  std::vector<int> reached, needed;
+  for (const int own : task_.own) {
+    reached = needed = task_.required;
+    cells_.visit(cells_.box(own), dependence_[own], [&](int cell) { reached.push_back(cell); });
+    // Any star may have triangles with points of the cells beside its own.
+    for (const int cell : reached) cells_.visitNear(cell, [&](int near) { needed.push_back(near); });
+    sortUnique(needed);
+    const bool is_complete = std::all_of(needed.begin(), needed.end(), [&](int cell) { return is_fit[cell] != 0; });
+    (is_complete ? complete_ : incomplete_).push_back(own);
+    if (is_complete)
+      needed_.insert(needed_.end(), needed.begin(), needed.end());
+    else
+      for (const int cell : needed) addLacking(cell);
+    if (needed_.size() > 8 * is_own_.size()) sortUnique(needed_);
   }
-  const auto lackFor = [&](int cell) {
-    const auto found = std::lower_bound(lacks_.begin(), lacks_.end(), std::pair(cell, std::vector<int>()));
-    if (found != lacks_.end() && found->first == cell)
+  sortUnique(needed_);
+  sortUnique(lacking_);
+}
+
+void Tile::addLacking(int cell) {
+  if (is_held_[cell] == 0) lacking_.push_back(cell);
+  const auto add = [&](int unsure) {
+    const auto found = std::lower_bound(lacks_.begin(), lacks_.end(), std::pair(unsure, std::vector<int>()));
+    if (found != lacks_.end() && found->first == unsure)
       lacking_.insert(lacking_.end(), found->second.begin(), found->second.end());
   };
-  for (const int cell : needed_) lackFor(cell);
+  add(cell);
   for (const auto& [from, to] : doubtful_pairs_)
-    if (is_needed[to] != 0) lackFor(from);
-  return lacking_.empty();
+    if (to == cell) add(from);
+}
+
+TileTask Tile::rest() const {
+  TileTask task = {incomplete_, task_.required, task_.lacking, task_.round + 1};
+  task.lacking.insert(task.lacking.end(), lacking_.begin(), lacking_.end());
+  sortUnique(task.lacking);
+  return task;
 }
 
 TileRows Tile::rows() const {
   TileRows rows;
   std::vector<Eigen::Index> own;
   for (std::size_t i = 0; i < cell_of_.size(); ++i)
-    if (isOwn(cell_of_[i])) own.push_back(static_cast<Eigen::Index>(i));
+    if (std::binary_search(complete_.begin(), complete_.end(), cell_of_[i]))
+      own.push_back(static_cast<Eigen::Index>(i));
   rows.M = result_.M(own);
   rows.normals = result_.frames.normals(own, Eigen::all);
   rows.begin.push_back(0);

@@ -114,7 +114,7 @@ Points roughTerrain(int n) {
     point.x() = random.uniform(0, 2);
     point.y() = random.uniform(0, 1);
     point.z() = 0.2 * std::sin(4 * point.x()) * std::cos(5 * point.y()) + 1e-4 * random.normal();
-    if (random.uniform() < 1e-3) point.z() += random.uniform(-0.3, 0.3);
+    if (random.uniform() < 2e-4) point.z() += random.uniform(-0.1, 0.1);
   }
   return points;
 }
