@@ -132,12 +132,14 @@ bool Tile::holdsAround(const CellBox& box, double radius) const {
 }
 
 void Tile::takeStars(const SurfaceStars& built, const RankedCloud& cloud) {
-  if (is_whole_) return;
   cell_by_rank_.resize(static_cast<std::size_t>(cloud.size()));
   for (int p = 0; p < cloud.size(); ++p) cell_by_rank_[p] = cell_of_[cloud.input_index[p]];
-  findCertainStars(built, cloud);
-  findLacking(built, cloud);
-  measureDependence(built, cloud);
+  is_sure_ = is_held_;
+  if (!is_whole_) {
+    findCertainStars(built, cloud);
+    findLacking(built, cloud);
+    measureDependence(built, cloud);
+  }
   findPairs(built);
 }
 
@@ -156,7 +158,6 @@ void Tile::findCertainStars(const SurfaceStars& built, const RankedCloud& cloud)
 
 void Tile::findLacking(const SurfaceStars& built, const RankedCloud& cloud) {
   const Stars& stars = built.stars;
-  is_sure_ = is_held_;
   lacks_.clear();
   std::vector<std::vector<int>> lacks(is_held_.size());  // what lets the stars of a cell be uncertain
   for (int p = 0; p < cloud.size(); ++p) {
