@@ -36,9 +36,10 @@ struct TileRows {
 
 /// Options of laplacianByTiles().
 struct TileOptions {
-  CloudOptions cloud = {};  ///< how rows are built; only `neighbors`, `steps`, `mollify` and `threads` may be set
-  double memory = 4e9;      ///< bytes that may be taken, beside what the source takes; more points per tile fit in
-  int tiles = 0;            ///< number of tiles; 0: as few as fit in memory
+  CloudOptions cloud =
+      {};  ///< how rows are built; only `neighbors`, `steps`, `mollify`, `threads` and `progress` may be set
+  double memory = 4e9;  ///< bytes that may be taken, beside what the source takes; more points per tile fit in
+  int tiles = 0;        ///< number of tiles; 0: as few as fit in memory
   std::filesystem::path folder = ".";  ///< a folder with room for 32 bytes per point, in a file without a name
   Progress progress = {};              ///< called between tiles
 };

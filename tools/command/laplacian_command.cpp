@@ -258,6 +258,7 @@ void addLaplacian(CLI::App& app, Run& run) {
   addTiled(command, settings->tiled);
   command.callback([&run, &command, settings] {
     settings->inputs = inputsOf(command);
+    checkTiled(command, settings->tiled);
     checkSeed(settings->build);
     run = [=] { return runLaplacian(*settings); };
   });

@@ -60,7 +60,6 @@ tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build, double poi
 }  // namespace
 
 void addTiled(CLI::App& command, Tiled& tiled) {
-  const std::vector<const CLI::Option*> others = std::as_const(command).get_options();
   CLI::Option* const memory =
       command
           .add_option_function<std::string>(
@@ -72,9 +71,13 @@ void addTiled(CLI::App& command, Tiled& tiled) {
           ->type_name("SIZE");
   command.add_flag("--keep-noise", tiled.keeps_noise, "Do not move noisy points onto the surface; only with --memory")
       ->needs(memory);
-  for (const CLI::Option* other : others)
-    if (other->get_name().rfind("--", 0) == 0 && available.count(other->get_name()) == 0)
-      memory->excludes(command.get_option(other->get_name()));
+}
+
+void checkTiled(const CLI::App& command, const Tiled& tiled) {
+  if (tiled.memory == 0) return;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && option->get_name().starts_with("--") && available.count(option->get_name()) == 0)
+      throw CLI::ExcludesError("--memory", option->get_name());
 }
 
 int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesystem::path& out, const Console& console) {
@@ -91,7 +94,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
   const tufted::Points points = std::move(geometry.points);
   geometry = {};  // fields and normals take memory
   tufted::TileOptions options = optionsOf(tiled, build, static_cast<double>(points.rows()));
-  options.progress = progress;
+  options.progress = options.cloud.progress = progress;
   tufted::TileSourceText text;
   text.source = input.name();
   text.preset = nameOf(build.preset);

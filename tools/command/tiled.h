@@ -14,9 +14,11 @@ struct Tiled {
   bool keeps_noise = false;  ///< --keep-noise
 };
 
-/// Adds --memory, which excludes all options of the command that tiles do not have, and --keep-noise. To be called when
-/// all others were added.
+/// Adds --memory and --keep-noise.
 void addTiled(CLI::App& command, Tiled& tiled);
+
+/// @throws CLI::ExcludesError if --memory is given with an option that tiles do not have
+void checkTiled(const CLI::App& command, const Tiled& tiled);
 
 /// Builds a cloud by tiles and writes L and M into `out`. @returns the exit code
 int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesystem::path& out, const Console& console);
