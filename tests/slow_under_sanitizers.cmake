@@ -1,6 +1,12 @@
 # Core tests that are left to the release build: they compare results or measure errors of large shapes, which takes more
 # than 3 s under sanitizers, and others run most of the same code there.
 set(slow_tests
+    Tiles.OfANoisySphereAreThoseOfTheWhole
+    Tiles.OfASphereAreThoseOfTheWhole
+    Tiles.OfATerrainWithOutliersAreThoseOfTheWhole
+    Tiles.OfLinesAreThoseOfTheWhole
+    Tiles.OfSteppedHeightsAreThoseOfTheWhole
+    Tiles.OfUnevenDensityAreThoseOfTheWhole
     BlockLanczos.SearchesUntilNothingIsMissingAndStaysExact
     BlockLanczos.TakesMostOfASpaceWithoutLeadingIntoTheNullSpace
     BoundedWeights.AreThoseOfAnotherSolver

@@ -35,6 +35,7 @@
 #include "tufted/solver.h"
 #include "tufted/spectrum.h"
 #include "tufted/surface_triangles.h"
+#include "tufted/tiles.h"
 #include "tufted/tracing.h"
 #include "tufted/types.h"
 #include "tufted/vector_heat.h"

@@ -95,6 +95,15 @@ double medianOfAll(std::int64_t n, const ValueOf& valueOf, const Workers& worker
 
 }  // namespace
 
+bool isWithinReach(const Scaling& scaling, double deviation) {
+  // Relative to 2^exponent, so that the bound itself cannot overflow.
+  return scaling.toScaled().times(deviation) <= farthest_spreads && deviation <= largest_distance;
+}
+
+void widenUnit(Scaling& scaling, double largest) {
+  if (largest > 0) scaling.exponent = std::max(scaling.exponent, std::ilogb(largest) - 1000);
+}
+
 Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status, const Workers& workers) {
   const Eigen::Index n = points.rows();
   status.resize(static_cast<std::size_t>(n));
@@ -120,15 +129,12 @@ Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status
   };
   const double spread = medianOfAll(n, deviationOfOther, workers);
   if (spread > 0 && std::isfinite(spread)) std::frexp(spread, &scaling.exponent);
-  const PowerOfTwo to_spreads(-scaling.exponent);
   Buffer<Extent> extent_of(workers.count());
   forBlocks([&](std::int64_t begin, std::int64_t end, int worker) {
     Extent here;  // local, because workers would share a cache line in extent_of
     for (std::int64_t i = begin; i < end; ++i) {
       if (!isUsable(i)) continue;
-      // Relative to 2^exponent, so that the bound itself cannot overflow.
-      const double distance = deviation(i);
-      if (to_spreads.times(distance) <= farthest_spreads && distance <= largest_distance)
+      if (isWithinReach(scaling, deviation(i)))
         here.widen(points.row(i).transpose());
       else
         status[i] = PointStatus::not_finite;
@@ -138,9 +144,7 @@ Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status
   Extent extent;
   for (const Extent& part : extent_of) extent.widen(part);
   scaling.lowest = extent.lowest;
-  const double largest = extent.largest;
-  // The scaled coordinates of a tiny cloud that is very far away must stay finite.
-  if (largest > 0) scaling.exponent = std::max(scaling.exponent, std::ilogb(largest) - 1000);
+  widenUnit(scaling, extent.largest);
   return scaling;
 }
 

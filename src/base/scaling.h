@@ -21,6 +21,14 @@ struct Scaling {
   PowerOfTwo toScaled() const { return PowerOfTwo(-exponent); }
 };
 
+/// Whether a point so far from the centre, in its farthest coordinate, takes part: at most 1e70 median spreads and
+/// 1e152.
+bool isWithinReach(const Scaling& scaling, double deviation);
+
+/// Makes the unit large enough for the scaled coordinates of a tiny cloud that is very far away to stay finite.
+/// @param largest the largest |coordinate| of points that take part
+void widenUnit(Scaling& scaling, double largest);
+
 /// The scaling of the points (N x 3).
 /// @param[out] status N; not_finite for rows that are not finite, or more than 1e70 median spreads or 1e152 from the
 /// centre; active for all others

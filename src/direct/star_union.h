@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <mutex>
 #include <optional>
@@ -53,6 +54,20 @@ class StarUnion final : public CoverSource {
   VectorXd starAreas() const override;
   bool appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                        std::vector<double>& length) const override;
+
+  /// Calls visit(corners, lengths) for front and back of all triangles of all stars, as flips have left them: corners
+  /// by rank, lengths in the unit of the ranked points. The cover must have been kept.
+  template <class Visit>
+  void forEachFace(const Visit& visit) const {
+    std::vector<std::array<int, 3>> faces;
+    std::vector<double> length;
+    for (int p = 0; p < stars_.size(); ++p) {
+      faces.clear();
+      length.clear();
+      cover_.appendFaces(p, faces, length);
+      for (std::size_t f = 0; f < faces.size(); ++f) visit(faces[f], length.data() + 3 * f);
+    }
+  }
 
   /// Mean lengths of the sides of all triangles by component, in units of the ranked points.
   /// @param component see Laplacian::component

@@ -12,8 +12,7 @@
 namespace tufted {
 namespace {
 
-/// Bits of a code per axis: three axes fill 63.
-constexpr int axis_bits = 21;
+constexpr int axis_bits = MortonGrid::axis_bits;
 constexpr double axis_cells = 1 << axis_bits;
 /// Cells per median spread: the grid covers 32 spreads, and points outside fall into its border.
 constexpr double cells = 1 << 16;
@@ -121,15 +120,31 @@ void mergeCoincident(RankedCloud& cloud, std::vector<PointStatus>& status, std::
 
 }  // namespace
 
+MortonGrid::MortonGrid(const Scaling& scaling) : to_scaled_(scaling.toScaled()) {
+  // The grid starts at the least corner of the data, but at most 16 spreads from the centre.
+  for (int axis = 0; axis < 3; ++axis)
+    corner_[axis] = std::max(to_scaled_.times(scaling.center[axis]) - 16, to_scaled_.times(scaling.lowest[axis]));
+}
+
+Eigen::Array3d MortonGrid::scaled(const Eigen::RowVector3d& point) const {
+  const auto times = [&](double x) { return to_scaled_.times(x) + 0.0; };
+  return {times(point.x()), times(point.y()), times(point.z())};
+}
+
+std::uint64_t MortonGrid::codeOf(const Eigen::Array3d& scaled) const {
+  return mortonCode(scaled - corner_);
+}
+
 RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative) {
   const Progress silent;
   return rankPoints(points, status, representative, Workers(1, silent));
 }
 
 RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative,
-                       const Workers& workers) {
+                       const Workers& workers, const Scaling* whole) {
   RankedCloud cloud;
-  const Scaling scaling = measureScaling(points, status, workers);
+  if (whole != nullptr) status.assign(static_cast<std::size_t>(points.rows()), PointStatus::active);
+  const Scaling scaling = whole != nullptr ? *whole : measureScaling(points, status, workers);
   cloud.exponent = scaling.exponent;
   representative.resize(static_cast<std::size_t>(points.rows()));
   std::iota(representative.begin(), representative.end(), 0);
@@ -142,21 +157,12 @@ RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status
     });
   };
 
-  const PowerOfTwo to_scaled = scaling.toScaled();
-  const auto scaled = [&](int i) -> Eigen::Array3d {
-    // no -0, so that equal numbers have equal bits
-    const auto times = [&](double x) { return to_scaled.times(x) + 0.0; };
-    return {times(points(i, 0)), times(points(i, 1)), times(points(i, 2))};
-  };
-  // The grid starts at the least corner of the data, but at most 16 spreads from the centre.
-  Eigen::Array3d corner;
-  for (int axis = 0; axis < 3; ++axis)
-    corner[axis] = std::max(to_scaled.times(scaling.center[axis]) - 16, to_scaled.times(scaling.lowest[axis]));
-
+  const MortonGrid grid(scaling);
+  const auto scaled = [&](int i) { return grid.scaled(points.row(i)); };
   RawBuffer<Key> keys(cloud.input_index.size());
   forAll([&](std::int64_t i) {
     const int index = cloud.input_index[i];
-    keys[i] = {mortonCode(scaled(index) - corner), index};
+    keys[i] = {grid.codeOf(scaled(index)), index};
   });
   // No two keys are equal, so the order does not depend on how they are sorted.
   sortByHighBits(keys, workers);

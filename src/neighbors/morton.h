@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "base/parallel.h"
 #include "base/point_buffer.h"
+#include "base/power_of_two.h"
+#include "base/scaling.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -20,12 +23,31 @@ struct RankedCloud {
   int size() const { return static_cast<int>(input_index.size()); }
 };
 
+/// The grid along whose Morton curve points are sorted.
+class MortonGrid {
+ public:
+  static constexpr int axis_bits = 21;  ///< bits of a code per axis: three axes fill 63
+
+  explicit MortonGrid(const Scaling& scaling);
+
+  /// Scaled coordinates without -0, so that equal numbers have equal bits.
+  Eigen::Array3d scaled(const Eigen::RowVector3d& point) const;
+  /// The place of scaled coordinates on the curve. Points outside of the grid fall into its border.
+  std::uint64_t codeOf(const Eigen::Array3d& scaled) const;
+
+ private:
+  PowerOfTwo to_scaled_;
+  Eigen::Array3d corner_;
+};
+
 /// Scales points, sorts them along the Morton curve and merges equal ones (section 1 of docs/algorithm.md).
 /// @param points N x 3
 /// @param[out] status N; not_finite, coincident, else active
 /// @param[out] representative N, see Laplacian::representative
+/// @param whole scaling of a cloud of which these are a part, all usable: they are ordered as there. Null: their own
+/// scaling
 RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative,
-                       const Workers& workers);
+                       const Workers& workers, const Scaling* whole = nullptr);
 /// rankPoints() on one thread.
 RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative);
 

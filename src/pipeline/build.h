@@ -1,8 +1,12 @@
 #pragma once
 
+#include "base/scaling.h"
 #include "tufted/laplacian.h"
 
 namespace tufted {
+
+struct RankedCloud;
+struct SurfaceStars;
 
 /// How L and M are made from the stars.
 enum class CloudBuild {
@@ -10,9 +14,25 @@ enum class CloudBuild {
   whole_cover,  ///< always by the whole cover (src/cover), as for meshes; the reference of tests
 };
 
+/// A part of a larger cloud that is built as the whole would be.
+class CloudPart {
+ public:
+  explicit CloudPart(const Scaling& whole) : scaling_(whole) {}
+  virtual ~CloudPart() = default;
+
+  const Scaling& scaling() const { return scaling_; }
+  /// Called when the stars are filtered, once or twice per build.
+  virtual void takeStars(const SurfaceStars& built, const RankedCloud& cloud) = 0;
+
+ private:
+  Scaling scaling_;
+};
+
 /// Builds the Laplacian of a cloud, see pointCloudLaplacian().
 /// @param[out] result replaced, in memory that it already has; undefined after an exception
-void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, CloudBuild build, Laplacian& result);
+/// @param part of which cloud the points, all of them usable, are a part; null: of none
+void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, CloudBuild build, Laplacian& result,
+                         CloudPart* part = nullptr);
 
 /// Builds the Laplacian of a mesh, see meshLaplacian().
 /// @param[out] result see buildCloudLaplacian()

@@ -56,7 +56,8 @@ Laplacian pointCloudLaplacian(const PointsRef& points, const CloudOptions& optio
   return result;
 }
 
-void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, CloudBuild build, Laplacian& result) {
+void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, CloudBuild build, Laplacian& result,
+                         CloudPart* part) {
   checkCloudOptions(function_name, points, options);
   if (points.rows() > INT32_MAX) tooMany(points.rows(), 6 * points.rows());
   const Workers workers(options.threads, options.progress);
@@ -64,7 +65,8 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   StageClock clock(result.report);
 
   // Equal points become one, the others are scaled and sorted along a curve, so that near points are close in memory.
-  RankedCloud cloud = rankPoints(points, result.status, result.representative, workers);
+  RankedCloud cloud =
+      rankPoints(points, result.status, result.representative, workers, part != nullptr ? &part->scaling() : nullptr);
   if (cloud.size() > most_entries / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
 
@@ -74,6 +76,9 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   CloudSurface surface =
       findSurface(cloud, options, viewpoint, result.status, result.representative, workers, clock, result.report);
   SurfaceStars built = std::move(surface.built);
+  if (part != nullptr) part->takeStars(built, cloud);
+  release(built.support.reach);
+  release(built.support.boundary_reach);
   if (std::ssize(built.stars.link) > most_entries) tooMany(cloud.size(), std::ssize(built.stars.link));
 
   // Normals, their orientation, and the positions between which lengths are measured.
@@ -105,7 +110,7 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
     result.cover_source.reset();
     // Flat triangles and endless flips are so rare that starting again costs less than keeping the stars.
     if (!finishFromStars(std::move(built), std::move(cloud), options, workers, clock, result))
-      return buildCloudLaplacian(points, options, CloudBuild::whole_cover, result);
+      return buildCloudLaplacian(points, options, CloudBuild::whole_cover, result, part);
   } else {
     finishFromWholeCover(std::move(built), cloud, options, workers, clock, result);
   }

@@ -53,7 +53,7 @@ struct WorkerState {
 /// Classifies what lies beyond the gaps of a star.
 class BoundaryFinder {
  public:
-  BoundaryFinder(const BuiltStars& built, const PointsView& points, const NeighborSource& source)
+  BoundaryFinder(BuiltStars& built, const PointsView& points, const NeighborSource& source)
       : stars_(built.stars), support_(built.support), points_(points), source_(source) {}
 
   /// find() tests gaps in the image seen from `viewpoint`, too.
@@ -70,6 +70,7 @@ class BoundaryFinder {
     if (stars_.ends[p] == 0) return Boundary::none;
     if (!hasTriangles(stars_, p)) return Boundary::lost;
     source_.nearest(points_, p, search_factor * source_.k, state.near, NeighborOrder::any, &state.before);
+    if (source_.search != nullptr) support_.boundary_reach[p] = state.before.radius;
     const Eigen::Vector3d normal = support_.normals.row(p);
     const Boundary along_normal = lookBeyond(p, View::along_normal, TangentPlane(points_, p, normal), state);
     if (!seen_ || along_normal == Boundary::jump) return along_normal;
@@ -122,7 +123,7 @@ class BoundaryFinder {
   }
 
   const Stars& stars_;
-  const StarSupport& support_;
+  StarSupport& support_;
   PointsView points_;
   const NeighborSource& source_;
   PointBuffer directions_;  ///< n x 3, unit vectors from the viewpoint; 0 x 3 without one
@@ -131,10 +132,11 @@ class BoundaryFinder {
 
 }  // namespace
 
-Buffer<Boundary> findBoundary(const BuiltStars& built, const RankedCloud& cloud, const NeighborSource& source,
+Buffer<Boundary> findBoundary(BuiltStars& built, const RankedCloud& cloud, const NeighborSource& source,
                               const Eigen::Vector3d* viewpoint, const Workers& workers) {
   const Stars& stars = built.stars;
   Buffer<Boundary> boundary(stars.size(), Boundary::none);
+  built.support.boundary_reach.assign(stars.size(), 0);
   BoundaryFinder finder(built, cloud.points, source);
   const auto scaled = [&](double x) { return std::clamp(std::ldexp(x, -cloud.exponent), -infinity, infinity); };
   const bool any = std::any_of(stars.ends.begin(), stars.ends.end(), [](std::uint8_t ends) { return ends != 0; });

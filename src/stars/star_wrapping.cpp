@@ -42,6 +42,7 @@ void makeRoom(int n, BuiltStars& built) {
   built.stars.offset.assign(static_cast<std::size_t>(n) + 1, 0);
   built.stars.ends.resize(n);
   built.support.fit_radius.resize(n);
+  built.support.reach.resize(n);
   built.support.isolated.resize(n);
   built.support.normals.resize(n);
 }

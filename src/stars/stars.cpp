@@ -91,6 +91,7 @@ class StarBuilder {
       neighborhood.axes.normal = source_.normals.row(p);
     support_.normals.row(p) = neighborhood.axes.normal;
     support_.fit_radius[p] = neighborhood.fit_radius;
+    support_.reach[p] = neighborhood.radius;
     support_.isolated[p] = neighborhood.isolated ? 1 : 0;
   }
 
@@ -167,6 +168,8 @@ class StarBuilder {
       star.closed = false;
     } else {
       wrapUntilCertain(p, neighborhood, 1 / unit, offsets, state);
+      const SearchBefore& last = state.neighborhood.before;  // also of a growth that was undone
+      if (last.k > 0 && last.p == p) support_.reach[p] = std::max(support_.reach[p], last.radius);
     }
 
     const auto anyTriangle = [](int, int) { return true; };
@@ -193,7 +196,7 @@ std::size_t Stars::bytes() const {
 }
 
 std::size_t StarSupport::bytes() const {
-  return bytesOf(radius) + bytesOf(fit_radius) + bytesOf(isolated) + normals.bytes();
+  return bytesOf(radius) + bytesOf(fit_radius) + bytesOf(reach) + bytesOf(isolated) + normals.bytes();
 }
 
 BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,

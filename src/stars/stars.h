@@ -36,6 +36,9 @@ struct Stars {
 struct StarSupport {
   RawBuffer<double> radius;  ///< circumradius in the tangent plane, per link entry; not updated when stars change later
   RawBuffer<double> fit_radius;  ///< n, S(p): distance to the last neighbour of the plane
+  RawBuffer<double> reach;  ///< n, how far neighbours were searched around p: no point farther away changes its star
+  /// n, how far findBoundary() has searched around p: no point farther away changes its label; empty before
+  Buffer<double> boundary_reach;
   /// n, 1 for points without a star: outliers, and points whose neighbours lie on other sheets
   RawBuffer<std::uint8_t> isolated;
   PointBuffer normals;  ///< n x 3

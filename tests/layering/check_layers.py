@@ -24,6 +24,7 @@ ROOMS = {
     "depth_image": ["base", "simd", "neighbors", "stars"],
     "denoise": ["base", "simd", "neighbors", "stars", "depth_image"],
     "pipeline": ["base", "cover", "neighbors", "stars", "depth_image", "denoise", "direct"],
+    "tiles": ["base", "cover", "neighbors", "stars", "direct", "pipeline"],
     "operators": ["base", "cover", "stars"],
     "algorithms": ["base", "simd", "cover", "neighbors", "stars", "operators"],
     "view": [],

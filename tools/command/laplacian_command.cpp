@@ -22,8 +22,10 @@
 #include "progress_bar.h"
 #include "scene_fields.h"
 #include "summary.h"
+#include "tiled.h"
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
+#include "tufted/io/tiles.h"
 #include "tufted/io/write.h"
 #include "tufted/laplacian.h"
 #include "warnings.h"
@@ -109,7 +111,15 @@ Files in DIR, which replace older ones when all are complete; other files in DIR
                       `tufted distance --operator` need; three times as large as the files of npz
   --format triangles
   triangles.ply       triangles between the measured positions: for a cloud a consistently oriented surface with one or
-                      two triangles at each edge, for a mesh its own)";
+                      two triangles at each edge, for a mesh its own
+
+With --memory the rows of a cloud are those of the whole, but built and written tile by tile, see docs/scale.md:
+  L_indptr.npy, L_indices.npy, L_data.npy
+                      for scipy.sparse.csr_matrix; with int64 indices
+  M.npy, status.npy, representative.npy, boundary.npy
+                      as above, but representative with int64 indices
+  normals.npy         N x 3, the sign of each normal arbitrary
+There are no components, no cover, no copies of the points, and no noise is removed.)";
 
 struct Settings {
   Input input;
@@ -118,6 +128,7 @@ struct Settings {
   tufted::WriteOptions write;
   Console console;
   Look look;
+  Tiled tiled;
   std::vector<NamedInput> inputs;
 };
 
@@ -178,7 +189,13 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
   return summary;
 }
 
+int runByTiles(Settings& settings) {
+  checkOutput(settings.inputs, settings.out, tufted::tileFiles());
+  return runTiled(settings.tiled, settings.input, settings.build, settings.out, settings.console);
+}
+
 int runLaplacian(Settings& settings) {
+  if (settings.tiled.memory > 0) return runByTiles(settings);
   const auto start = std::chrono::steady_clock::now();
   checkLook(settings.look, settings.out, settings.inputs);
   checkOutput(settings.inputs, settings.out, tufted::resultFiles(settings.write.formats));
@@ -237,8 +254,11 @@ void addLaplacian(CLI::App& app, Run& run) {
   command.option_defaults()->group("Picture and page of the result");
   addLookOptions(command, settings->look);
   addVerboseConsole(command, settings->console);
+  command.option_defaults()->group("Clouds that are larger than memory");
+  addTiled(command, settings->tiled);
   command.callback([&run, &command, settings] {
     settings->inputs = inputsOf(command);
+    checkTiled(command, settings->tiled);
     checkSeed(settings->build);
     run = [=] { return runLaplacian(*settings); };
   });

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "tufted/options.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// Points that are read several times, in batches, because there may be more of them than memory holds.
+struct PointSource {
+  std::int64_t size = 0;  ///< number of points
+  /// Calls take(batch) for consecutive batches of rows, n x 3, until all points were given. Every call gives the same
+  /// points in the same order.
+  std::function<void(const std::function<void(const PointsRef& batch)>& take)> pass;
+};
+
+/// Points in memory as a source. @param points borrowed for the life of the result
+PointSource sourceOf(const PointsRef& points);
+
+/// Rows of L, M and what is known of their points. Points are counted from 0 in the order of their source.
+struct TileRows {
+  std::vector<std::int64_t> point;           ///< the point of each row
+  std::vector<std::int64_t> representative;  ///< per row, see Laplacian::representative
+  std::vector<PointStatus> status;           ///< per row
+  std::vector<Boundary> boundary;            ///< per row
+  VectorXd M;                                ///< per row, area in length^2
+  Points normals;                            ///< rows x 3, of arbitrary sign
+  std::vector<std::int64_t> begin;           ///< per row, its first entry in `column` and `value`; and the end
+  std::vector<std::int64_t> column;          ///< the other point of each entry, ascending within a row
+  std::vector<double> value;                 ///< entries of L
+};
+
+/// Options of laplacianByTiles().
+struct TileOptions {
+  CloudOptions cloud =
+      {};  ///< how rows are built; only `neighbors`, `steps`, `mollify`, `threads` and `progress` may be set
+  double memory = 4e9;  ///< bytes that may be taken, beside what the source takes; more points per tile fit in
+  int tiles = 0;        ///< number of tiles; 0: as few as fit in memory
+  std::filesystem::path folder = ".";  ///< a folder with room for 32 bytes per point, in a file without a name
+  Progress progress = {};              ///< called between tiles
+};
+
+/// What laplacianByTiles() did.
+struct TileReport {
+  std::int64_t points = 0;      ///< number of points
+  std::int64_t active = 0;      ///< points that take part
+  std::int64_t not_finite = 0;  ///< see PointStatus
+  std::int64_t coincident = 0;  ///< see PointStatus
+  std::int64_t isolated = 0;    ///< see PointStatus
+  std::int64_t nonzeros = 0;    ///< entries of L
+  double area = 0;              ///< sum of M
+  std::int64_t cells = 0;       ///< cells of the grid that hold points
+  int tiles = 0;                ///< number of tiles
+  int builds = 0;  ///< number of builds; those beyond `tiles` built parts of tiles again, with a wider margin
+  std::int64_t most_points = 0;  ///< most points that a build held
+  double margin = 0;             ///< points of all builds per point, less 1
+};
+
+/// Builds L and M of a cloud by tiles: the rows that pointCloudLaplacian() gives, up to rounding, in memory for one
+/// tile. A tile holds the points around it as well. It knows how far each of its decisions has looked, and is built
+/// again with more points if that was beyond what it held.
+///
+/// Not built: the cover, components, and positions moved out of noise (CloudSteps::denoise must be false).
+/// @param take called with the rows of each tile; if rows of a point are given again, they replace earlier ones. No
+/// rows are given for points that are not finite
+/// @throws InvalidInput for options out of range, `cloud` with normals, neighborhoods, a structure or a viewpoint, with
+/// denoise, or with options of the paper that need a whole cover; if a tile with its margin does not fit in memory
+/// @throws IoError if the file in `folder` cannot be written
+/// @throws Cancelled when `progress` returns false
+TileReport laplacianByTiles(const PointSource& source, const TileOptions& options,
+                            const std::function<void(const TileRows&)>& take);
+
+}  // namespace tufted

@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/number_text.h"
+#include "pipeline/cloud_options.h"
+#include "tiles/passes_scaling.h"
+#include "tiles/sorted_points.h"
+#include "tiles/tile.h"
+#include "tufted/errors.h"
+#include "tufted/tiles.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* function_name = "laplacianByTiles";
+/// Bytes per point that a build takes with its rows: 500 to 650 were measured on terrains of 1 and 5 million points.
+constexpr double point_bytes = 700;
+/// Bytes that are taken whatever the number of points in a tile: the program, batches of points and the cells.
+constexpr double fixed_bytes = 250e6;
+/// Share of the points in memory that a tile owns; the others are its margin.
+constexpr double own_share = 0.6;
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw InvalidInput(std::string(function_name) + ": " + text);
+}
+
+void checkOptions(const TileOptions& options) {
+  const CloudOptions& cloud = options.cloud;
+  checkCloudOptions(
+      function_name, Points(0, 3),
+      {.neighbors = cloud.neighbors, .mollify = cloud.mollify, .threads = cloud.threads, .paper = cloud.paper});
+  if (options.tiles < 0) refuse("tiles = " + std::to_string(options.tiles) + ", must be >= 0");
+  if (!(options.memory > fixed_bytes))
+    refuse("memory = " + numberText(options.memory) + " bytes, must be more than " + numberText(fixed_bytes));
+  if (cloud.normals != nullptr || cloud.neighborhoods != nullptr || cloud.structure != nullptr ||
+      cloud.viewpoint != nullptr)
+    refuse("normals, neighborhoods, structure and viewpoint must be null");
+  if (cloud.steps.denoise) refuse("denoise = true, must be false: noise is not yet found by tiles");
+  if (cloud.paper.gluing != Gluing::star || cloud.paper.order != FaceOrder::angle)
+    refuse("gluing and order of the paper must be star and angle: others need a whole cover");
+}
+
+/// The last cell of each tile, for tiles of about equally many points.
+std::vector<int> planTiles(const Cells& cells, std::int64_t tiles) {
+  std::vector<int> ends;
+  const std::int64_t all = cells.begin(cells.size());
+  for (int cell = 0; cell < cells.size(); ++cell) {
+    const auto tile = std::ssize(ends) + 1;
+    if (cells.begin(cell + 1) >= all / tiles * tile + std::min(tile, all % tiles)) ends.push_back(cell + 1);
+  }
+  return ends;
+}
+
+/// Builds tiles and hands out their rows.
+class TileBuilds {
+ public:
+  TileBuilds(const SortedPoints& points, const Scaling& scaling, const TileOptions& options,
+             const std::function<void(const TileRows&)>& take)
+      : points_(points), scaling_(scaling), options_(options), take_(take) {
+    const std::int64_t all = points.cells().begin(points.cells().size());
+    most_points_ = static_cast<std::int64_t>((options.memory - fixed_bytes) / point_bytes);
+    const double own = static_cast<double>(most_points_) * (all <= most_points_ ? 1 : own_share);
+    const auto fitting = static_cast<std::int64_t>(std::ceil(static_cast<double>(all) / own));
+    ends_ = planTiles(points.cells(), std::max<std::int64_t>(1, options.tiles > 0 ? options.tiles : fitting));
+  }
+
+  TileReport buildAll() {
+    for (std::size_t number = 0; number < ends_.size(); ++number) {
+      if (options_.progress &&
+          !options_.progress("tiles", static_cast<double>(number) / static_cast<double>(ends_.size())))
+        throw Cancelled("laplacianByTiles: cancelled");
+      TileTask task;
+      for (int cell = number == 0 ? 0 : ends_[number - 1]; cell < ends_[number]; ++cell) task.own.push_back(cell);
+      build(std::move(task));
+    }
+    // A star far away, such as that of an outlier, may have triangles with points of a tile that cannot know that.
+    while (requireMore()) {
+    }
+    return report();
+  }
+
+ private:
+  /// Rows that were built.
+  struct Built {
+    TileTask task;            ///< of building them again
+    std::vector<int> needed;  ///< see Tile::neededCells()
+    TileReport counts;
+  };
+
+  /// Builds rows again that depend on stars of which their tile did not know. Returns whether there were any.
+  bool requireMore() {
+    std::sort(far_pairs_.begin(), far_pairs_.end());
+    far_pairs_.erase(std::unique(far_pairs_.begin(), far_pairs_.end()), far_pairs_.end());
+    std::vector<TileTask> again;
+    for (std::size_t i = 0; i < built_.size();) {
+      Built& built = built_[i];
+      const auto needs = [&](int cell) { return std::binary_search(built.needed.begin(), built.needed.end(), cell); };
+      const std::size_t before = built.task.required.size();
+      for (const auto& [from, to] : far_pairs_)
+        if (needs(to) && !needs(from)) built.task.required.push_back(from);
+      if (built.task.required.size() == before) {
+        ++i;
+        continue;
+      }
+      again.push_back(std::move(built.task));
+      built = std::move(built_.back());
+      built_.pop_back();
+    }
+    for (TileTask& task : again) build(std::move(task));
+    return !again.empty();
+  }
+
+  void build(TileTask task) {
+    while (!task.own.empty()) {
+      Tile tile(points_, scaling_, std::move(task));
+      tile.holdMargin(options_.cloud);
+      if (tile.heldPoints() > most_points_) refuseLarge(tile.heldPoints());
+      most_held_ = std::max(most_held_, tile.heldPoints());
+      all_held_ += tile.heldPoints();
+      ++builds_;
+      tile.build(options_.cloud);
+      for (const auto& pair : tile.farPairs())
+        if (std::binary_search(tile.complete().begin(), tile.complete().end(), pair.first)) far_pairs_.push_back(pair);
+      const TileRows rows = tile.rows();
+      task = tile.rest();
+      if (rows.point.empty()) continue;
+      built_.push_back({{tile.complete(), task.required}, tile.neededCells(), countsOf(rows)});
+      take_(rows);
+    }
+  }
+
+  [[noreturn]] void refuseLarge(std::int64_t held) const {
+    refuse("a tile holds " + std::to_string(held) + " points with its margin, must be at most " +
+           std::to_string(most_points_) + " with memory = " + numberText(options_.memory) +
+           " bytes: give more memory, more tiles, or remove points far from the surface");
+  }
+
+  static TileReport countsOf(const TileRows& rows) {
+    TileReport counts;
+    for (const PointStatus status : rows.status) {
+      counts.active += status == PointStatus::active ? 1 : 0;
+      counts.coincident += status == PointStatus::coincident ? 1 : 0;
+      counts.isolated += status == PointStatus::isolated ? 1 : 0;
+    }
+    counts.nonzeros = std::ssize(rows.column);
+    counts.area = rows.M.sum();
+    return counts;
+  }
+
+  TileReport report() const {
+    TileReport report;
+    for (const Built& built : built_) {
+      report.active += built.counts.active;
+      report.coincident += built.counts.coincident;
+      report.isolated += built.counts.isolated;
+      report.nonzeros += built.counts.nonzeros;
+      report.area += built.counts.area;
+    }
+    const std::int64_t sorted = points_.cells().begin(points_.cells().size());
+    report.cells = points_.cells().size();
+    report.tiles = static_cast<int>(ends_.size());
+    report.builds = builds_;
+    report.most_points = most_held_;
+    report.margin = sorted > 0 ? static_cast<double>(all_held_) / static_cast<double>(sorted) - 1 : 0;
+    return report;
+  }
+
+  const SortedPoints& points_;
+  const Scaling& scaling_;
+  const TileOptions& options_;
+  const std::function<void(const TileRows&)>& take_;
+  std::int64_t most_points_ = 0, most_held_ = 0, all_held_ = 0;
+  int builds_ = 0;
+  std::vector<int> ends_;
+  std::vector<Built> built_;
+  std::vector<std::pair<int, int>> far_pairs_;  ///< see Tile::farPairs(), of all tiles
+};
+
+}  // namespace
+
+PointSource sourceOf(const PointsRef& points) {
+  return {points.rows(), [points](const auto& take) { take(points); }};
+}
+
+TileReport laplacianByTiles(const PointSource& source, const TileOptions& options,
+                            const std::function<void(const TileRows&)>& take) {
+  checkOptions(options);
+  const Scaling scaling = measureScaling(source);
+  const SortedPoints points(source, scaling, options.folder);
+  TileReport report = TileBuilds(points, scaling, options, take).buildAll();
+  report.points = source.size;
+  report.not_finite = source.size - points.cells().begin(points.cells().size());
+  return report;
+}
+
+}  // namespace tufted

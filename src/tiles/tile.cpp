@@ -1,0 +1,321 @@
+#include "tiles/tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "base/power_of_two.h"
+#include "cover/geometry.h"
+#include "direct/star_union.h"
+#include "stars/gaps.h"
+#include "stars/surface_stars.h"
+
+namespace tufted {
+namespace {
+
+/// At the corner of a rim 8 k points are searched in a quarter of the plane.
+constexpr double points_at_corner = 32;
+/// Triangles between a point and the farthest one whose star may change its row, if no edge flips: the stars of its
+/// link vertices have triangles with it, and triangles are glued by all stars that have their edge.
+constexpr int usual_hops = 2;
+/// The triangles of a star depend further on the corners of the quadrilaterals whose diagonals are settled, and whether
+/// these are settled on the corners of the quadrilaterals beside them.
+constexpr int hops_of_settled = 2;
+/// Points per asked neighbour that a tile holds at least: neighbourhoods grow to 8 k, stars to 8 times these. A search
+/// that found fewer points than it asked for would not know what it missed.
+constexpr std::int64_t most_asked = 64;
+
+double circumradius(const double* length) {
+  return length[0] * length[1] * length[2] / (4 * triangleArea(length[0], length[1], length[2]));
+}
+
+CellBox boxOf(const RankedCloud& cloud, int p) {
+  return CellBox::of(cloud.points.row(p).transpose().array());
+}
+
+void sortUnique(std::vector<int>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+}  // namespace
+
+Tile::Tile(const SortedPoints& points, const Scaling& whole, TileTask task)
+    : CloudPart(whole),
+      points_(points),
+      cells_(points.cells()),
+      task_(std::move(task)),
+      is_own_(static_cast<std::size_t>(cells_.size())),
+      is_held_(static_cast<std::size_t>(cells_.size())) {
+  for (const int cell : task_.own) is_own_[cell] = 1;
+}
+
+void Tile::holdMargin(const CloudOptions& options) {
+  std::vector<int> wanted = task_.own;
+  wanted.insert(wanted.end(), task_.required.begin(), task_.required.end());
+  const double mean = static_cast<double>(cells_.begin(cells_.size())) / cells_.size();
+  const double corner = std::sqrt(points_at_corner * options.neighbors / std::numbers::pi / mean);
+  // One more for stars that have triangles with the points of these cells, and one because cells are not cut.
+  int margin = 2 + static_cast<int>(std::min(std::ceil(corner), 1.0 * options.neighbors));
+  margin += (options.steps.settle_diagonals ? 1 : 0) + (options.steps.isolate_outliers ? 1 : 0);
+  // The next build holds ever more, so that few builds are needed.
+  holdAround(wanted, margin * (task_.round + 1));
+  holdAround(task_.lacking, margin);
+  is_whole_ = held_points_ == cells_.begin(cells_.size());
+}
+
+void Tile::hold(int cell) {
+  if (is_held_[cell] != 0) return;
+  is_held_[cell] = 1;
+  held_points_ += cells_.points(cell);
+}
+
+void Tile::holdAround(std::vector<int> cells, int width) {
+  for (const int cell : cells) hold(cell);
+  for (int ring = 0; ring < width && !cells.empty(); ++ring) {
+    std::vector<int> next;
+    for (const int cell : cells) {
+      cells_.visitNear(cell, [&](int near) {
+        if (is_held_[near] == 0) next.push_back(near);
+        hold(near);
+      });
+    }
+    cells.swap(next);
+  }
+}
+
+void Tile::readPoints() {
+  std::vector<StoredPoint> stored;
+  stored.reserve(static_cast<std::size_t>(held_points_));
+  cell_of_.clear();
+  for (int cell = 0; cell < cells_.size();) {
+    int end = cell;
+    for (; end < cells_.size() && is_held_[end] != 0; ++end)
+      cell_of_.insert(cell_of_.end(), static_cast<std::size_t>(cells_.points(end)), end);
+    points_.read(cell, end, stored);
+    cell = end + 1;
+  }
+  positions_.resize(std::ssize(stored), 3);
+  number_.resize(stored.size());
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    positions_.row(static_cast<Eigen::Index>(i)) = Eigen::Map<const Eigen::RowVector3d>(stored[i].position);
+    number_[i] = stored[i].number;
+  }
+}
+
+void Tile::build(const CloudOptions& options) {
+  readPoints();
+  isolates_ = options.steps.isolate_outliers;
+  hops_ = usual_hops + (options.steps.settle_diagonals ? hops_of_settled : 0);
+  CloudOptions used = options;
+  used.keep_cover = true;  // for the radii of its faces
+  result_ = {};
+  buildCloudLaplacian(positions_, used, CloudBuild::automatic, result_, this);
+  complete_.clear();
+  incomplete_.clear();
+  needed_.clear();
+  if (is_whole_) {
+    complete_ = task_.own;
+  } else if (result_.report.active + result_.report.isolated <= most_asked * options.neighbors) {
+    incomplete_ = lacking_ = task_.own;
+  } else {
+    addFaceRadii();
+    findComplete();
+  }
+}
+
+bool Tile::holdsAround(const CellBox& box, double radius) const {
+  bool holds = true;
+  cells_.visit(box, radius, [&](int cell) { holds = holds && is_held_[cell] != 0; });
+  return holds;
+}
+
+void Tile::takeStars(const SurfaceStars& built, const RankedCloud& cloud) {
+  cell_by_rank_.resize(static_cast<std::size_t>(cloud.size()));
+  for (int p = 0; p < cloud.size(); ++p) cell_by_rank_[p] = cell_of_[cloud.input_index[p]];
+  is_sure_ = is_held_;
+  if (!is_whole_) {
+    findCertainStars(built, cloud);
+    findLacking(built, cloud);
+    measureDependence(built, cloud);
+  }
+  findPairs(built);
+}
+
+void Tile::findCertainStars(const SurfaceStars& built, const RankedCloud& cloud) {
+  is_certain_.assign(cell_by_rank_.size(), 1);
+  for (int p = 0, end = 0; p < cloud.size(); p = end) {
+    double reach = 0;
+    for (end = p; end < cloud.size() && cell_by_rank_[end] == cell_by_rank_[p]; ++end)
+      reach = std::max(reach, built.support.reach[end]);
+    if (holdsAround(cells_.box(cell_by_rank_[p]), reach)) continue;
+    for (int q = p; q < end; ++q) {
+      is_certain_[q] = holdsAround(boxOf(cloud, q), built.support.reach[q]) ? 1 : 0;
+    }
+  }
+}
+
+void Tile::findLacking(const SurfaceStars& built, const RankedCloud& cloud) {
+  const Stars& stars = built.stars;
+  lacks_.clear();
+  std::vector<std::vector<int>> lacks(is_held_.size());  // what lets the stars of a cell be uncertain
+  for (int p = 0; p < cloud.size(); ++p) {
+    if (is_certain_[p] != 0) continue;
+    is_sure_[cell_by_rank_[p]] = 0;
+    cells_.visit(boxOf(cloud, p), built.support.reach[p], [&](int other) {
+      if (is_held_[other] == 0) lacks[cell_by_rank_[p]].push_back(other);
+    });
+  }
+  const std::vector<std::uint8_t> has_certain = is_sure_;
+  for (int p = 0, end = 0; p < cloud.size(); p = end) {
+    const int cell = cell_by_rank_[p];
+    std::vector<int> all;
+    const auto need = [&](int other) {
+      if (is_held_[other] == 0) all.push_back(other);
+      if (has_certain[other] != 0) return;
+      is_sure_[cell] = 0;
+      all.insert(all.end(), lacks[other].begin(), lacks[other].end());
+    };
+    // A filtered star depends on the neighbourhoods of its link vertices, and whether these are isolated on those of
+    // their neighbours.
+    const auto needNeighbors = [&](int q) {
+      if (is_certain_[q] == 0) need(cell_by_rank_[q]);
+      if (isolates_) cells_.visit(boxOf(cloud, q), built.support.fit_radius[q], need);
+    };
+    for (end = p; end < cloud.size() && cell_by_rank_[end] == cell; ++end) {
+      needNeighbors(end);
+      for (int i = stars.offset[end]; i < stars.offset[end + 1]; ++i) needNeighbors(stars.link[i]);
+      if (is_sure_[cell] == 0) sortUnique(all);
+    }
+    if (is_sure_[cell] == 0) lacks_.emplace_back(cell, std::move(all));
+  }
+}
+
+void Tile::measureDependence(const SurfaceStars& built, const RankedCloud& cloud) {
+  const Stars& stars = built.stars;
+  std::vector<double> reach(static_cast<std::size_t>(cloud.size())), farther;
+  for (int hop = 0; hop < hops_; ++hop) {
+    farther = reach;
+    for (int p = 0; p < cloud.size(); ++p) {
+      forEachTriangle(stars, p, [&](int a, int b) {
+        for (const int q : {a, b}) {
+          const double length = (cloud.points.row(q) - cloud.points.row(p)).norm();
+          farther[p] = std::max(farther[p], length + reach[q]);
+          farther[q] = std::max(farther[q], length + reach[p]);
+        }
+      });
+    }
+    reach.swap(farther);
+  }
+  dependence_.assign(is_own_.size(), 0);
+  for (int p = 0; p < cloud.size(); ++p) {
+    const int cell = cell_by_rank_[p];
+    if (is_own_[cell] == 0) continue;
+    // The label of the boundary depends on the stars in the gap.
+    dependence_[cell] = std::max({dependence_[cell], reach[p], built.support.boundary_reach[p]});
+  }
+}
+
+void Tile::findPairs(const SurfaceStars& built) {
+  far_pairs_.clear();
+  doubtful_pairs_.clear();
+  const auto add = [&](int p, int q) {
+    const int from = cell_by_rank_[p], to = cell_by_rank_[q];
+    if (from == to || cells_.areNear(from, to)) return;
+    if (is_own_[from] != 0) far_pairs_.emplace_back(from, to);
+    if (is_sure_[from] == 0) doubtful_pairs_.emplace_back(from, to);
+  };
+  for (int p = 0; p < built.stars.size(); ++p)
+    forEachTriangle(built.stars, p, [&](int a, int b) { add(p, a), add(p, b); });
+}
+
+void Tile::addFaceRadii() {
+  std::vector<double> radius(dependence_.size());
+  const auto add = [&](int cell, double r) { radius[cell] = std::max(radius[cell], r); };
+  if (const auto stars = std::dynamic_pointer_cast<const StarUnion>(result_.cover_source)) {
+    stars->forEachFace([&](const std::array<int, 3>& corners, const double* length) {
+      for (const int p : corners) add(cell_by_rank_[p], circumradius(length));
+    });
+  } else {
+    const IntrinsicTriangulation& cover = result_.cover();
+    const PowerOfTwo unit = scaling().toScaled();
+    for (std::size_t f = 0; f < cover.faces.size(); ++f) {
+      const double r = unit.times(circumradius(cover.length.data() + 3 * f));
+      for (const int i : cover.faces[f]) add(cell_of_[i], r);
+    }
+  }
+  // An empty circle lies within its diameter of each corner.
+  for (std::size_t i = 0; i < radius.size(); ++i) dependence_[i] += 2 * radius[i];
+}
+
+void Tile::findComplete() {
+  std::vector<std::uint8_t> is_fit = is_sure_;
+  for (const auto& [from, to] : doubtful_pairs_) is_fit[to] = 0;
+  std::vector<int> reached, needed;
+  for (const int own : task_.own) {
+    reached = needed = task_.required;
+    cells_.visit(cells_.box(own), dependence_[own], [&](int cell) { reached.push_back(cell); });
+    // Any star may have triangles with points of the cells beside its own.
+    for (const int cell : reached) cells_.visitNear(cell, [&](int near) { needed.push_back(near); });
+    sortUnique(needed);
+    const bool is_complete = std::all_of(needed.begin(), needed.end(), [&](int cell) { return is_fit[cell] != 0; });
+    (is_complete ? complete_ : incomplete_).push_back(own);
+    if (is_complete)
+      needed_.insert(needed_.end(), needed.begin(), needed.end());
+    else
+      for (const int cell : needed) addLacking(cell);
+    if (needed_.size() > 8 * is_own_.size()) sortUnique(needed_);
+  }
+  sortUnique(needed_);
+  sortUnique(lacking_);
+}
+
+void Tile::addLacking(int cell) {
+  if (is_held_[cell] == 0) lacking_.push_back(cell);
+  const auto add = [&](int unsure) {
+    const auto found = std::lower_bound(lacks_.begin(), lacks_.end(), std::pair(unsure, std::vector<int>()));
+    if (found != lacks_.end() && found->first == unsure)
+      lacking_.insert(lacking_.end(), found->second.begin(), found->second.end());
+  };
+  add(cell);
+  for (const auto& [from, to] : doubtful_pairs_)
+    if (to == cell) add(from);
+}
+
+TileTask Tile::rest() const {
+  TileTask task = {incomplete_, task_.required, task_.lacking, task_.round + 1};
+  task.lacking.insert(task.lacking.end(), lacking_.begin(), lacking_.end());
+  sortUnique(task.lacking);
+  return task;
+}
+
+TileRows Tile::rows() const {
+  TileRows rows;
+  std::vector<Eigen::Index> own;
+  for (std::size_t i = 0; i < cell_of_.size(); ++i)
+    if (std::binary_search(complete_.begin(), complete_.end(), cell_of_[i]))
+      own.push_back(static_cast<Eigen::Index>(i));
+  rows.M = result_.M(own);
+  rows.normals = result_.frames.normals(own, Eigen::all);
+  rows.begin.push_back(0);
+  std::vector<std::pair<std::int64_t, double>> entries;
+  for (const Eigen::Index i : own) {
+    rows.point.push_back(number_[i]);
+    rows.representative.push_back(number_[result_.representative[i]]);
+    rows.status.push_back(result_.status[i]);
+    rows.boundary.push_back(result_.boundary[i]);
+    entries.clear();
+    for (SparseMatrix::InnerIterator entry(result_.L, i); entry; ++entry)
+      entries.emplace_back(number_[entry.row()], entry.value());
+    std::sort(entries.begin(), entries.end());
+    for (const auto& [column, value] : entries) {
+      rows.column.push_back(column);
+      rows.value.push_back(value);
+    }
+    rows.begin.push_back(std::ssize(rows.column));
+  }
+  return rows;
+}
+
+}  // namespace tufted

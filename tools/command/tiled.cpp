@@ -1,0 +1,120 @@
+#include "tiled.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "interrupt.h"
+#include "options.h"
+#include "output.h"
+#include "peak_memory.h"
+#include "progress_bar.h"
+#include "summary.h"
+#include "tufted/errors.h"
+#include "tufted/io/tiles.h"
+#include "warnings.h"
+
+namespace {
+
+/// Options that a build by tiles has.
+const std::set<std::string> available = {
+    "--help",      "--help-all", "--as",      "--where", "--crop", "--polygon", "--thin",   "--out",       "--preset",
+    "--neighbors", "--threads",  "--mollify", "--quiet", "--json", "--verbose", "--memory", "--keep-noise"};
+
+/// Bytes of a size such as 4G, 500M or 4000000000; 0 if it is none. G is 2^30, as for the shell's tools.
+double bytesOf(const std::string& size) {
+  char* end = nullptr;
+  const double number = std::strtod(size.c_str(), &end);
+  const std::string unit = end;
+  const std::string units = "KMGT";
+  const std::size_t place = unit.size() == 1 ? units.find(unit) : std::string::npos;
+  if (!(number > 0) || !std::isfinite(number) || (!unit.empty() && place == std::string::npos)) return 0;
+  return unit.empty() ? number : std::ldexp(number, 10 * static_cast<int>(place + 1));
+}
+
+std::string nameOf(tufted::Preset preset) {
+  return preset == tufted::Preset::clean ? "clean" : preset == tufted::Preset::scan ? "scan" : "lidar";
+}
+
+tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build, double points) {
+  if (build.preset != tufted::Preset::clean && !tiled.keeps_noise)
+    throw tufted::InvalidInput("--memory needs --preset clean or --keep-noise: preset " + nameOf(build.preset) +
+                               " moves noisy points, which tiles cannot do yet");
+  tufted::TileOptions options;
+  options.cloud.steps = tufted::cloudSteps(build.preset);
+  options.cloud.steps.denoise = false;
+  options.cloud.neighbors = build.cloud.neighbors;
+  options.cloud.threads = build.cloud.threads;
+  if (build.mollify) options.cloud.mollify = *build.mollify;
+  options.memory = tiled.memory - points * 3 * sizeof(double);
+  return options;
+}
+
+}  // namespace
+
+void addTiled(CLI::App& command, Tiled& tiled) {
+  CLI::Option* const memory =
+      command
+          .add_option_function<std::string>(
+              "--memory", [&tiled](const std::string& size) { tiled.memory = bytesOf(size); },
+              "Build the cloud by tiles that fit in this much memory, such as 4G; writes other files, see below")
+          ->check([](const std::string& size) {
+            return bytesOf(size) > 0 ? std::string() : size + " is not a size such as 4G or 500M";
+          })
+          ->type_name("SIZE");
+  command.add_flag("--keep-noise", tiled.keeps_noise, "Do not move noisy points onto the surface; only with --memory")
+      ->needs(memory);
+}
+
+void checkTiled(const CLI::App& command, const Tiled& tiled) {
+  if (tiled.memory == 0) return;
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && option->get_name().starts_with("--") && available.count(option->get_name()) == 0)
+      throw CLI::ExcludesError("--memory", option->get_name());
+}
+
+int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesystem::path& out, const Console& console) {
+  const auto start = std::chrono::steady_clock::now();
+  ProgressBar bar(console.quiet);
+  const tufted::Progress progress = showOn(bar);
+  progress("read", 0);
+  tufted::Geometry geometry = readInput(input, progress);
+  if (geometry.is_mesh)
+    throw tufted::InvalidInput("--memory applies to point clouds, and " + input.name() +
+                               " holds a mesh (--as cloud takes its vertices alone)");
+  if (interrupted()) throw tufted::Cancelled("cancelled");
+  std::vector<std::string> notes = std::move(geometry.notes);
+  const tufted::Points points = std::move(geometry.points);
+  geometry = {};  // fields and normals take memory
+  tufted::TileOptions options = optionsOf(tiled, build, static_cast<double>(points.rows()));
+  options.progress = options.cloud.progress = progress;
+  tufted::TileSourceText text;
+  text.source = input.name();
+  text.preset = nameOf(build.preset);
+  if (input.chosen.of > 0)
+    text.selection = input.chosen.json().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  const tufted::TileReport report = forOption(
+      "--memory", [&] { return tufted::writeLaplacianByTiles(out, tufted::sourceOf(points), options, text); });
+  bar.clear();
+  for (const std::string& note : notes) warn(bar, note);
+  Summary summary;
+  summary.add("file", "%s (cloud)", input.name().c_str());
+  summary.add("points", "%lld, %lld take part", static_cast<long long>(report.points),
+              static_cast<long long>(report.active));
+  summary.add("tiles", "%d of at most %lld points, %.0f %% of them margin; %d built again with a wider margin",
+              report.tiles, static_cast<long long>(report.most_points), 100 * report.margin / (1 + report.margin),
+              report.builds - report.tiles);
+  summary.add("area", "%.10g, the sum of M", report.area);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  summary.add("took", "%.3g s, peak memory %.0f MB", seconds.count(), peakMemory());
+  summary.add("written to", "%s", out.c_str());
+  sayResults(console, summary, out, notes);
+  return exit_done;
+}
