@@ -1,10 +1,27 @@
 """The methods of Surface that measure distances, or carry values and vectors along the surface."""
+import os
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 
 from . import _arguments as check
 from . import _tufted
 from ._results import Isoline, LogMap, Path, Trace
-from ._tufted import InvalidInput
+from ._tufted import Cancelled, InvalidInput
+
+
+def _in_threads(call, count, threads):
+    """Yields the results of call(0), ..., call(count - 1), on at most `threads` threads, 0: one per processor. Calls
+    that have not begun are left out if the caller stops.
+    """
+    if threads == 1:
+        yield from map(call, range(count))
+        return
+    pool = ThreadPoolExecutor(threads or os.cpu_count())
+    try:
+        yield from pool.map(call, range(count))
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 class Distances:
@@ -39,6 +56,29 @@ class Distances:
         places = self._places("nearest_source", sources, faces, barycentric)
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.nearest(places, check.callback("nearest_source", progress))
+
+    def distance_matrix(self, sources, *, method="marching", split=None, maximum=None, time_step=None, unit=None,
+                        open_boundary=None, progress=None):
+        """The geodesic distance of every point from each of some sources, as `tufted distance --matrix`: the sources
+        are marched from at once on as many threads as the surface may use.
+
+        sources: S indices. method, split, maximum, time_step, unit, open_boundary: as in distance().
+        Returns N x S, length. A distance from i to j differs from that from j to i by some thousandths of the largest
+        one; where that matters take the mean, d = distance_matrix(s)[s]; (d + d.T) / 2.
+        """
+        where = check.indices("distance_matrix", "sources", sources, len(self))
+        progress = check.callback("distance_matrix", progress)
+        solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
+        found = np.empty((len(self), where.size), order="F")
+
+        def fill(k):
+            place = self._places("distance_matrix", where[k:k + 1], None, None)
+            found[:, k] = solver.query(place, None)
+
+        for done, _ in enumerate(_in_threads(fill, where.size, self._solving["threads"]), 1):
+            if progress is not None and progress("distance_matrix", done / where.size) is False:
+                raise Cancelled("distance_matrix: progress returned False")
+        return found
 
     def points_within(self, sources, radius, *, split=None, progress=None):
         """Finds the points whose geodesic distance from the nearest of some sources is at most a radius. On a cloud
