@@ -116,7 +116,7 @@ def columns(function, name, value, rows):
         array = array.reshape(1)
     if array.ndim not in (1, 2) or array.shape[0] != rows:
         raise InvalidInput(f"{function}: {name} has the shape {_shape(array)}, must be {rows} or {rows} x c")
-    return array.reshape(rows, -1) if array.ndim == 1 else array, array.ndim == 1
+    return array[:, None] if array.ndim == 1 else array, array.ndim == 1
 
 
 def pins(function, pins_given, values, count):

@@ -40,6 +40,11 @@ class Distances:
         mean squared length of edges, or "adapted", the same for very uneven density. open_boundary: of heat: whether it
         passes the boundary as if the surface went on; None: True.
         Returns N values >= 0, length; infinite where no path leads.
+
+        >>> cloud = tufted.PointCloud(points)
+        >>> from_one, from_either = cloud.distance(0), cloud.distance([0, 5])
+        >>> bool(from_either[5] == 0 and from_one[5] > 0)
+        True
         """
         places = self._places("distance", sources, faces, barycentric)
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
@@ -118,6 +123,10 @@ class Distances:
         Returns points (K x 3, from the start over all edges that the line crosses to the end), length, ended_by
         ("length"; "rim": the surface ends; "branch": more than two triangles meet; "crossings": after a million),
         direction (3, at the end), corners and barycentric (3 each, the place of the end).
+
+        >>> mesh = tufted.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.trace(0, [1, 1, 0], 1).ended_by
+        'length'
         """
         direction = check.vector_of_three("trace", "direction", direction)
         length = check.number("trace", "length", length)
@@ -141,6 +150,10 @@ class Distances:
         Returns a list, in the order of `values`: of each line points (K x 3, in order; a closed line does not repeat
         its first point), value, length, closed. Larger values lie to the left, seen from the front of the triangles.
         Lines end where the surface ends and where more than two triangles meet; on a closed surface all are closed.
+
+        >>> mesh = tufted.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> [line.length for line in mesh.isolines([0, 1, 1, 0], 0.5)]
+        [1.0]
         """
         field, _ = check.columns("isolines", "field", field, len(self))
         values, _ = check.columns("isolines", "values", np.atleast_1d(values), np.size(values))

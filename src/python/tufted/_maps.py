@@ -208,7 +208,10 @@ def _compared(function, shapes, bases, descriptors, landmarks, weights):
     weight = np.ones(count) if weights is None else check.columns(function, "weights", weights, count)[0][:, 0]
     if not ((weight >= 0) & np.isfinite(weight)).all():
         raise InvalidInput(f"{function}: weights has {weight.min():g}, must be finite and at least 0")
-    pairs = check.integers(function, "landmarks", landmarks).reshape(-1, 2)
+    pairs = check.integers(function, "landmarks", landmarks)
+    if pairs.size and (pairs.ndim != 2 or pairs.shape[1] != 2):
+        raise InvalidInput(f"{function}: landmarks has the shape {' x '.join(map(str, pairs.shape))}, must be P x 2")
+    pairs = pairs.reshape(-1, 2)
     columns = []
     for side, (shape, basis, wave) in enumerate(zip(shapes, bases, waves)):
         places = check.indices(function, "landmarks", pairs[:, side], len(shape), empty=True)

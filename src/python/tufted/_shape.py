@@ -133,6 +133,12 @@ class Shape:
         steps: number of steps, >= 1. time_step: t, > 0, as a share of the surface's area.
         Returns N x 3, scaled about the middle of the surface so that its area stays; isolated and non-finite points
         keep their place.
+
+        >>> egg = tufted.PointCloud(points * [2, 1, 1])
+        >>> ball = egg.mean_curvature_flow(steps=30, time_step=0.05)
+        >>> radius = np.linalg.norm(ball, axis=1)
+        >>> bool(radius.std() < 0.02 * radius.mean())
+        True
         """
         steps = check.whole("mean_curvature_flow", "steps", steps, 1)
         time_step = check.number("mean_curvature_flow", "time_step", time_step)
