@@ -191,6 +191,16 @@ def test_paths_and_traces(ball):
     path = solver.find_geodesic_path(v_start=start, v_end=end, max_iterations=100, max_relative_length_decrease=0.5)
     np.testing.assert_array_equal(path[[0, -1]], V[[start, end]])
     assert np.linalg.norm(np.diff(path, axis=0), axis=1).sum() == pytest.approx(np.pi / 2, abs=0.01)
+    V, F = torus_mesh(60, 30)  # vertex 30 i + j at i parts of a circle around the hole and j around the tube
+    solver = pp3d.EdgeFlipGeodesicSolver(V, F)
+    inside = [30 * i + 15 for i in (0, 20, 40, 50)]
+    path = solver.find_geodesic_path_poly(inside, max_iterations=100, max_relative_length_decrease=0.5)
+    np.testing.assert_array_equal(path[[0, -1]], V[[inside[0], inside[-1]]])
+    assert np.linalg.norm(np.diff(path, axis=0), axis=1).sum() == pytest.approx(2 * np.pi * 0.6 * 50 / 60, rel=1e-3)
+    loop = solver.find_geodesic_loop([3, 607, 1211])
+    assert np.linalg.norm(loop - np.roll(loop, 1, axis=0), axis=1).sum() == pytest.approx(2 * np.pi * 0.6, rel=1e-3)
+    assert solver.find_geodesic_loop([3, 97, 185], max_relative_length_decrease=0.5).shape == (1, 3)  # contracts
+    V, F = ball
     tracer = pp3d.GeodesicTracer(V, F)
     for trace in (tracer.trace_geodesic_from_vertex(start, np.array((9.0, 0, 1))),  # from (1, 0, 0) along z
                   tracer.trace_geodesic_from_vertex(start, (0, 0, 1), max_iterations=10**6)):
@@ -240,6 +250,8 @@ def test_the_local_triangulation_of_a_cartwheel():
      "level_set_constraint = 'None', must be 'ZeroSet'"),
     (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([]), "must have at least one source"),
     (lambda V, F: pp3d.MeshVectorHeatSolver(V, F).compute_log_map(0, "Fast"), "strategy = 'Fast', must be one of"),
+    (lambda V, F: pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_loop([0]), "find_geodesic_loop: v_list has 1 indices"),
+    (lambda V, F: pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_path(0, 10**6), "find_geodesic_path: v_end has 1000000"),
     (lambda V, F: pp3d.GeodesicTracer(V, F).trace_geodesic_from_vertex(0, [1, 2]), "direction_xyz has the shape 2"),
 ])
 def test_mistakes_are_named_as_the_caller_names_them(call, words):

@@ -1,4 +1,4 @@
-"""Distances of many landmarks at once, and the conformalised mean curvature flow."""
+"""Distances of many landmarks at once, ways through points, and the conformalised mean curvature flow."""
 import numpy as np
 import pytest
 
@@ -19,6 +19,23 @@ def test_distances_of_landmarks_are_those_of_single_queries(mesh):
     assert len(stages) == 3
     with pytest.raises(tufted.InvalidInput, match="distance_matrix: sources has 1800"):
         mesh.distance_matrix([0, 1800])
+
+
+def test_ways_through_points_keep_their_class_on_clouds():
+    """Around the hole of a torus of radii 1 and 0.4 a loop stays, and slides to the inside."""
+    random = np.random.default_rng(101)
+    u, v, share = random.uniform(size=(3, 12000)) * [[2 * np.pi], [2 * np.pi], [1.4]]
+    u, v = u[share < 1 + 0.4 * np.cos(v)][:4000], v[share < 1 + 0.4 * np.cos(v)][:4000]
+    ring = 1 + 0.4 * np.cos(v)
+    points = np.stack([ring * np.cos(u), ring * np.sin(u), 0.4 * np.sin(v)], axis=1)
+    cloud = tufted.PointCloud(np.vstack([points, points[:1]]))
+    stops = cloud.nearest(np.stack([np.cos(np.arange(6)), np.sin(np.arange(6)), 0.4 + 0 * np.arange(6)], axis=1))
+    loop = cloud.path_through(stops, closed=True)
+    assert loop.length == pytest.approx(2 * np.pi * 0.6, rel=0.01)
+    assert np.linalg.norm(loop.points[:, :2], axis=1).max() < 0.65
+    np.testing.assert_array_equal(cloud.path_through([4000, stops[0]]).points, cloud.path_through([0, stops[0]]).points)
+    with pytest.raises(tufted.InvalidInput, match="path_through: points has 1 indices"):
+        cloud.path_through([5])
 
 
 def test_the_conformal_mean_curvature_flow_makes_a_sphere():

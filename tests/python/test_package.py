@@ -109,7 +109,7 @@ def test_docstrings_name_every_argument(name, value):
     function = value.__init__ if inspect.isclass(value) else value
     missing = [p for p in inspect.signature(function).parameters
                if p not in ("self", "options") and not re.search(rf"\b{p}\b", text)]
-    short = {"source_ind", "source_inds", "v_ind", "v_inds", "V", "F", "path", "vector", "vectors", "values",
+    short = {"p_ind", "p_inds", "v_ind", "v_inds", "V", "F", "path", "vector", "vectors", "values",
              "directory", "time_step", "k", "spectrum"}
     assert set(missing) <= short, f"{name}: {missing}"
 

@@ -110,9 +110,31 @@ class Distances:
         for name, point in zip(("start", "end"), ends):
             if point.size != 1:
                 raise InvalidInput(f"path: {name} has {point.size} indices, must be one")
-        solver = self._keep("path", lambda: _tufted.PathSolver(
-            self._laplacian, self._solver(), check.callback("path", progress)))
-        return Path(*solver.path(int(ends[0][0]), int(ends[1][0]), check.callback("path", progress)))
+        progress = check.callback("path", progress)
+        solver = self._keep("path", lambda: self._path_solver("path", progress))
+        return Path(*solver.path(int(ends[0][0]), int(ends[1][0]), progress))
+
+    def path_through(self, points, *, closed=False, progress=None):
+        """Straightens a way through several points, which says on which side of handles and hills the path passes: no
+        path near it is shorter. It need not pass the inner points. On a cloud it runs over triangles().
+
+        points: at least two indices. closed: whether the way leads back from the last to the first: a geodesic loop,
+        which keeps none of the points, and contracts to a single one where nothing holds it.
+        Returns points (K x 3; of a loop without the first one again) and the length along the surface. Raises
+        InvalidInput if no path leads.
+        """
+        stops = check.indices("path_through", "points", points, len(self))
+        progress = check.callback("path_through", progress)
+        solver = self._keep("path through", lambda: self._path_solver("path_through", progress))
+        return Path(*solver.through(self.representative[stops], bool(closed), progress))
+
+    def _path_solver(self, function, progress):
+        """For paths in a class on a cloud those of triangles(), which do not overlap."""
+        laplacian = self._laplacian
+        if function == "path_through" and self._faces is None:
+            options = {"order": "angle", "seed": 0, "mollify": 0.0, "weld": False, "threads": self._solving["threads"]}
+            laplacian = _tufted.build_mesh(self.positions, self._joined_faces(function), options, progress)
+        return _tufted.PathSolver(laplacian, self._solver(), progress)
 
     def trace(self, source, direction, length, *, barycentric=None, progress=None):
         """Follows a straight line over the triangles of a mesh, or those of triangles(): the exponential map.

@@ -199,7 +199,7 @@ class _MeshLines:
 
 
 class EdgeFlipGeodesicSolver(_MeshLines):
-    """Shortest paths on a mesh, as potpourri3d.EdgeFlipGeodesicSolver, but between any two vertices the one path.
+    """Straight paths and loops on a mesh, as potpourri3d.EdgeFlipGeodesicSolver.
 
     V: N x 3. F: F x 3. t_coef: ignored.
     """
@@ -210,6 +210,20 @@ class EdgeFlipGeodesicSolver(_MeshLines):
         """
         with check.named("find_geodesic_path", start="v_start", end="v_end"):
             return self._surface.path(v_start, v_end).points
+
+    def find_geodesic_path_poly(self, v_list, max_iterations=None, max_relative_length_decrease=None):
+        """The way through the vertices v_list, straightened: K x 3 points from the first to the last. max_iterations and
+        max_relative_length_decrease are ignored.
+        """
+        with check.named("find_geodesic_path_poly", points="v_list"):
+            return self._surface.path_through(v_list).points
+
+    def find_geodesic_loop(self, v_list, max_iterations=None, max_relative_length_decrease=None):
+        """The closed way through the vertices v_list, straightened: K x 3 points, the first one not repeated; a single
+        one where the loop contracts. max_iterations and max_relative_length_decrease are ignored.
+        """
+        with check.named("find_geodesic_loop", points="v_list"):
+            return self._surface.path_through(v_list, closed=True).points
 
 
 class GeodesicTracer(_MeshLines):
