@@ -117,6 +117,14 @@ def test_zoom_out_starts_from_points_too(meshes):
     np.testing.assert_array_equal(maps.to_source, np.arange(len(uv)))
 
 
+def test_zoom_out_stops_when_told(meshes):
+    stages = []
+    with pytest.raises(tufted.Cancelled, match="zoom_out"):
+        tufted.zoom_out(*meshes[1:], np.eye(30), progress=lambda stage, fraction: stages.append(stage) or (
+            stage != "zoom_out" or stages.count(stage) < 3))
+    assert stages.count("zoom_out") == 3
+
+
 def test_points_that_take_no_part_have_no_image():
     uv = triangle_sample(800, 101)
     points = np.vstack([rolled(uv), [[np.nan] * 3, [50, 50, 50]], rolled(uv[:1])])

@@ -6,7 +6,7 @@ import contextlib
 import numpy as np
 import scipy.sparse
 
-from ._tufted import InvalidInput, SolverFailure
+from ._tufted import Cancelled, InvalidInput, SolverFailure
 
 _LARGEST = 2**31 - 1
 
@@ -151,6 +151,12 @@ def callback(function, value):
     if value is not None and not callable(value):
         raise InvalidInput(f"{function}: progress = {value!r}, must be None or a function of stage and fraction")
     return value
+
+
+def report(function, progress, fraction):
+    """Calls `progress` with the name of a function of the package, which computes in Python, as its stage."""
+    if progress is not None and progress(function, fraction) is False:
+        raise Cancelled(f"{function}: progress returned False")
 
 
 def sparse(parts, size):

@@ -7,7 +7,7 @@ import numpy as np
 from . import _arguments as check
 from . import _tufted
 from ._results import Isoline, LogMap, Path, Trace
-from ._tufted import Cancelled, InvalidInput
+from ._tufted import InvalidInput
 
 
 def _in_threads(call, count, threads):
@@ -81,8 +81,7 @@ class Distances:
             found[:, k] = solver.query(place, None)
 
         for done, _ in enumerate(_in_threads(fill, where.size, self._solving["threads"]), 1):
-            if progress is not None and progress("distance_matrix", done / where.size) is False:
-                raise Cancelled("distance_matrix: progress returned False")
+            check.report("distance_matrix", progress, done / where.size)
         return found
 
     def points_within(self, sources, radius, *, split=None, progress=None):

@@ -7,7 +7,7 @@ import scipy.sparse
 from . import _arguments as check
 from . import _tufted
 from ._results import Curvature, Deformation, MinimalSurface, Parameterization, Segments, TuftedWarning
-from ._tufted import Cancelled, InvalidInput
+from ._tufted import InvalidInput
 
 
 def triangle_areas(points, faces):
@@ -157,8 +157,7 @@ class Shape:
         area, middle = masses.sum(), masses @ x / masses.sum()
         x = x - middle
         for step in range(steps):
-            if progress is not None and progress("mean_curvature_flow", step / steps) is False:
-                raise Cancelled("mean_curvature_flow: progress returned False")
+            check.report("mean_curvature_flow", progress, step / steps)
             x = _flowed(L, masses, time_step * area, x)
             masses = lumped_areas(x, faces)
             scale = np.sqrt(area / masses.sum())
