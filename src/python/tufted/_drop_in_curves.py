@@ -9,6 +9,7 @@ from ._drop_in_files import edges
 from ._tufted import InvalidInput
 
 _PIECES = 8  # of a segment of a curve, whose ends are sources: distances are off by 1/16 of the segment next to it
+_ROUNDING = 1e-12  # of barycentric coordinates that the caller has computed
 
 
 class _MeshPlaces:
@@ -28,19 +29,19 @@ class _MeshPlaces:
         return self._surface
 
     def _position(self, place):
-        """Indices and weights of the vertices that a place lies between; a vertex alone, or those of an edge or face.
-        """
+        """The vertices of its edge or face that a place lies between, and their weights; of a vertex it alone."""
         index, *rest = place
-        numbers = np.asarray(rest[0] if rest else [], np.float64)
-        if numbers.size == 0:
+        given = np.asarray(rest[0] if rest else [], np.float64).reshape(-1)
+        if given.size == 0:
             return check.indices(self._name, "curves", index, len(self._surface)), np.ones(1)
-        corners = self._edges if numbers.size == 1 else self._surface.faces
+        corners = self._edges if given.size == 1 else self._surface.faces
         index = check.indices(self._name, "curves", index, len(corners))[0]
-        weights = numbers if numbers.size == 3 else np.array([*(1 - numbers), *numbers]) if numbers.size == 1 else (
-            np.append(numbers, 1 - numbers.sum()))
-        if weights.size > 3 or not (weights >= -1e-12).all():  # rounding of what the caller computed
-            raise InvalidInput(f"{self._name}: curves has the coordinates {numbers}, must be in [0, 1]")
-        return corners[index], np.maximum(weights, 0)
+        weights = {1: lambda: np.append(1 - given, given), 2: lambda: np.append(given, 1 - given.sum())}.get(
+            given.size, lambda: given)()
+        if weights.size > 3 or not (weights >= -_ROUNDING).all() or not weights.sum() > 0:
+            raise InvalidInput(f"{self._name}: curves has the coordinates {given}, must be one to three in [0, 1]")
+        used = weights > _ROUNDING
+        return corners[index][used], weights[used]
 
     def _face_around(self, vertices):
         """A face that has all these vertices, or -1."""
@@ -62,6 +63,8 @@ class _MeshPlaces:
             face = self._face_around(np.union1d(vertices, ends[0][0]))
             pieces = _PIECES if face >= 0 and k + 1 < len(places) else 1
             face = face if face >= 0 else self._face_around(vertices)
+            if face < 0:
+                raise InvalidInput(f"{self._name}: curves has the vertex {vertices[0]}, must be a corner of a face")
             start = self._in_face(face, vertices, weights)
             end = self._in_face(face, *ends[0]) if pieces > 1 else start
             faces += pieces * [face]
