@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "tufted/laplacian.h"
 #include "tufted/options.h"
@@ -46,6 +47,18 @@ class PathSolver {
   /// @throws InvalidInput for an index out of range, or where no path leads
   /// @throws Cancelled when `progress` returns false
   SurfacePath query(int from, int to, const Progress& progress = {}) const;
+
+  /// Straightens a way through several points, which chooses one of the paths that pass handles, holes and hills on
+  /// different sides: no path near the result is shorter. It need not pass the inner points. Between two points the way
+  /// is a short path.
+  /// @param points indices as in query(), at least two; of equal neighbours one counts
+  /// @param is_closed whether the way goes back from the last point to the first: a loop, which keeps none of the
+  /// points and may contract to a single one. `SurfacePath::points` then does not repeat the first point. A loop that
+  /// turns at one point alone is not straightened there. A way may also keep a corner where triangles overlap, as those
+  /// of clouds do here and there; those of surfaceTriangles(), built as a mesh, do not.
+  /// @throws InvalidInput for fewer than two points, an index out of range, or where no path leads
+  /// @throws Cancelled when `progress` returns false
+  SurfacePath through(const std::vector<int>& points, bool is_closed, const Progress& progress = {}) const;
 
   /// A moved-from solver may only be destroyed or assigned to.
   PathSolver(PathSolver&&) noexcept;

@@ -209,7 +209,8 @@ std::optional<std::vector<Segment>> shortcutThroughOthers(const MarchFaces& face
 
 }  // namespace
 
-std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Segment& before, const Segment& after) {
+std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Segment& before, const Segment& after,
+                                               bool keeps_class) {
   const Strip &first = before.strip, &second = after.strip;
   const int slot = first.end;
   if (first.isEdge() && second.isEdge() && edgeOf(faces, first, first.end) == edgeOf(faces, second, second.start))
@@ -242,7 +243,7 @@ std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Se
     offer(edgeEnd(faces, previousSide(second.start), second.start), after.at_start[1]);
   }
   if (least < std::numbers::pi - straight) return straighten(faces, join(faces, link, first, second, goal));
-  if (second.isEdge()) return {};
+  if (second.isEdge() || keeps_class) return {};
   return shortcutThroughOthers(faces, link, before, after);
 }
 

@@ -83,6 +83,13 @@ py::tuple pathBetween(const PathSolver& solver, int from, int to, const py::obje
   return py::make_tuple(std::move(path.points), path.length);
 }
 
+/// The points of a straightened way, K x 3, and its length.
+py::tuple pathThrough(const PathSolver& solver, const Integers& points, bool is_closed, const py::object& progress) {
+  const std::vector<int> stops = indicesOf(points);
+  SurfacePath path = run(progress, [&](const Progress& called) { return solver.through(stops, is_closed, called); });
+  return py::make_tuple(std::move(path.points), path.length);
+}
+
 GeodesicTracer tracerOf(const Doubles& points, const Integers& faces, Points normals, Points tangents) {
   return {pointsOf(points), trianglesOf(faces), {std::move(normals), std::move(tangents), Orientation::arbitrary}};
 }
@@ -119,7 +126,10 @@ void addDistance(py::module_& module) {
       .def("query", &query)
       .def("nearest", &nearest)
       .def_property_readonly("time_step", &DistanceSolver::timeStep);
-  py::class_<PathSolver>(module, "PathSolver").def(py::init(&pathSolverOf)).def("path", &pathBetween);
+  py::class_<PathSolver>(module, "PathSolver")
+      .def(py::init(&pathSolverOf))
+      .def("path", &pathBetween)
+      .def("through", &pathThrough);
   py::class_<GeodesicTracer>(module, "GeodesicTracer").def(py::init(&tracerOf)).def("query", &traced);
   module.def("isolines", &isolinesOf);
 }

@@ -29,6 +29,7 @@ constexpr std::array functions = {
     Name{"SurfacePoint::inFace", "distance"},
     Name{"pointsWithin", "points_within"},
     Name{"PathSolver::query", "path"},
+    Name{"PathSolver::through", "path_through"},
     Name{"PathSolver", "path"},
     Name{"ExtensionSolver::query", "extend"},
     Name{"ExtensionSolver", "extend"},

@@ -1,4 +1,5 @@
 // Normals, curvature, triangles and segments of a surface.
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "tufted/gradient.h"
 #include "tufted/nearest_point.h"
 #include "tufted/normals.h"
+#include "tufted/polygons.h"
 #include "tufted/segments.h"
 #include "tufted/surface_triangles.h"
 
@@ -75,6 +77,29 @@ py::tuple segmentsOf(const Laplacian& laplacian, Points normals, Points tangents
   return py::make_tuple(owned(std::move(found.labels)), std::move(found.areas), owned(std::move(found.seeds)));
 }
 
+/// The triangles of polygons.
+/// @param corners indices of all polygons, one after the other
+/// @param counts the number of corners of each, their sum is that of `corners`
+Triangles triangulated(const Doubles& points, const Integers& corners, const Integers& counts) {
+  Polygons polygons;
+  const int* corner = corners.data();
+  for (const int count : indicesOf(counts)) {
+    polygons.emplace_back(corner, corner + count);
+    corner += count;
+  }
+  const Points all = pointsOf(points);
+  return run(py::none(), [&](const Progress& called) { return triangulate(all, polygons, called); });
+}
+
+/// The faces of the tufted cover, F x 3, after flips.
+py::array_t<int> coverFaces(const Laplacian& laplacian) {
+  const auto* const cover = run(py::none(), [&](const Progress&) { return &laplacian.cover(); });
+  std::vector<int> corners;
+  corners.reserve(3 * cover->faces.size());
+  for (const std::array<int, 3>& face : cover->faces) corners.insert(corners.end(), face.begin(), face.end());
+  return owned(std::move(corners)).reshape({-1, 3});
+}
+
 }  // namespace
 
 void addShape(py::module_& module) {
@@ -96,6 +121,8 @@ void addShape(py::module_& module) {
       return surfaceTriangles(laplacian, TriangleOptions{.progress = called});
     });
   });
+  module.def("triangulate", &triangulated);
+  module.def("cover_faces", &coverFaces);
   module.def("nearest", [](const Laplacian& laplacian, const Doubles& points, const Doubles& positions,
                            const py::object& progress) {
     const auto view = pointsOf(points), targets = pointsOf(positions);

@@ -1,5 +1,7 @@
-// Pages that show points with values.
+// Pages and pictures that show points with values.
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -7,7 +9,9 @@
 
 #include "python/arrays.h"
 #include "python/module.h"
+#include "python/running.h"
 #include "tufted/view/page.h"
+#include "tufted/view/picture.h"
 
 namespace py = pybind11;
 
@@ -18,8 +22,8 @@ namespace {
 using FieldTuple =
     std::tuple<std::string, std::string, Eigen::MatrixXd, std::string, std::vector<std::string>, std::string>;
 
-std::string page(std::string title, const Doubles& points, const Integers& faces, Points normals,
-                 const std::vector<FieldTuple>& fields) {
+Scene sceneOf(std::string title, const Doubles& points, const Integers& faces, Points normals,
+              const std::vector<FieldTuple>& fields, Points line) {
   const std::map<std::string, FieldKind> kinds = {
       {"scalar", FieldKind::scalar}, {"diverging", FieldKind::diverging}, {"distance", FieldKind::distance},
       {"label", FieldKind::label},   {"vector", FieldKind::vector},       {"coordinates", FieldKind::coordinates},
@@ -29,15 +33,57 @@ std::string page(std::string title, const Doubles& points, const Integers& faces
                  .triangles = trianglesOf(faces),
                  .normals = std::move(normals)};
   for (const auto& [name, kind, values, unit, label_names, no_value] : fields)
-    scene.fields.push_back({name, chosen<FieldKind>("page: kind", kind, kinds), values, unit, label_names, no_value});
-  const py::gil_scoped_release release;
-  return pageOf(scene);
+    scene.fields.push_back(
+        {name, chosen<FieldKind>("picture: kind", kind, kinds), values, unit, label_names, no_value});
+  scene.path = std::move(line);
+  return scene;
+}
+
+/// What pages and pictures share: field, column, color_map, and the camera's angles, zoom, up and projection.
+template <class Options>
+Options lookOf(const py::dict& given) {
+  Options options;
+  options.field = given["field"].cast<int>();
+  options.column = given["column"].cast<int>();
+  options.color_map = given["color_map"].cast<std::string>();
+  options.camera.azimuth = given["azimuth"].cast<std::optional<double>>();
+  options.camera.elevation = given["elevation"].cast<std::optional<double>>();
+  options.camera.zoom = given["zoom"].cast<double>();
+  options.camera.up = given["up"].cast<Eigen::Vector3d>();
+  options.camera.is_parallel = given["is_parallel"].cast<bool>();
+  return options;
+}
+
+std::string page(const Scene& scene, const py::dict& given) {
+  const auto options = lookOf<PageOptions>(given);
+  return run(py::none(), [&](const Progress&) { return pageOf(scene, options); });
+}
+
+/// The bytes of a PNG file.
+py::bytes picture(const Scene& scene, const py::dict& given, const std::array<int, 2>& size,
+                  const std::string& background, std::optional<std::array<double, 2>> range,
+                  std::optional<bool> isolines, bool light, bool legend, int threads) {
+  auto options = lookOf<PictureOptions>(given);
+  options.width = size[0];
+  options.height = size[1];
+  options.background = chosen<Background>(
+      "picture: background", background,
+      {{"white", Background::white}, {"dark", Background::dark}, {"transparent", Background::transparent}});
+  options.range = range;
+  options.isolines = isolines;
+  options.light = light;
+  options.legend = legend;
+  options.threads = threads;
+  return run(py::none(), [&](const Progress&) { return pngOf(drawPicture(scene, options)); });
 }
 
 }  // namespace
 
 void addView(py::module_& module) {
+  py::class_<Scene>(module, "Scene").def(py::init(&sceneOf));
   module.def("page", &page);
+  module.def("picture", &picture);
+  module.def("color_maps", &colorMapNames);
 }
 
 }  // namespace tufted::python

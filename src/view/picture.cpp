@@ -7,7 +7,6 @@
 #include "view/field_colors.h"
 #include "view/legend.h"
 #include "view/path_line.h"
-#include "view/png_file.h"
 #include "view/projection.h"
 #include "view/samples.h"
 #include "view/shading.h"
@@ -54,7 +53,7 @@ Picture drawPicture(const Scene& scene, const PictureOptions& options) {
 }
 
 WholeFile preparePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options) {
-  return {path, view::pngOf(drawPicture(scene, options))};
+  return {path, pngOf(drawPicture(scene, options))};
 }
 
 void writePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options) {

@@ -1,12 +1,12 @@
-#include "view/png_file.h"
-
 #include <png.h>
 
 #include <new>
+#include <string>
 #include <vector>
 
-namespace tufted::view {
+#include "tufted/view/picture.h"
 
+namespace tufted::view {
 namespace {
 
 /// Called by libpng for an error; must not return. All arguments are valid, so there was no memory.
@@ -40,6 +40,9 @@ struct Writer {
 };
 
 }  // namespace
+}  // namespace tufted::view
+
+namespace tufted {
 
 std::string pngOf(const Picture& picture) {
   // Higher levels take longer than drawing and save a few percent.
@@ -48,8 +51,8 @@ std::string pngOf(const Picture& picture) {
   for (std::size_t i = 3; i < picture.pixels.size(); i += 4) is_opaque = is_opaque && picture.pixels[i] == 255;
   const int channels = is_opaque ? 3 : 4;
   std::string file;
-  const Writer writer;
-  png_set_write_fn(writer.png, &file, append, nullptr);
+  const view::Writer writer;
+  png_set_write_fn(writer.png, &file, view::append, nullptr);
   png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(picture.width),
                static_cast<png_uint_32>(picture.height), 8, is_opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -67,4 +70,4 @@ std::string pngOf(const Picture& picture) {
   return file;
 }
 
-}  // namespace tufted::view
+}  // namespace tufted

@@ -116,7 +116,7 @@ TEST(StraightWay, TakesThePlaceOfPiecesThatMeetInATriangle) {
       return pieces.front();
     };
     for (const int to : {3, 4}) {
-      const auto pieces = shortcutAt(faces, pieceTo(3, 2), pieceTo(2, to));
+      const auto pieces = shortcutAt(faces, pieceTo(3, 2), pieceTo(2, to), false);
       ASSERT_TRUE(pieces) << height;
       EXPECT_NEAR(lengthOf(*pieces), to == 3 ? 0 : 2, 1e-12) << height;
     }

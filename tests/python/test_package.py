@@ -1,15 +1,19 @@
 """What is imported, and that stubs and docstrings agree with the signatures."""
 import ast
+import doctest
 import inspect
+import itertools
 import os
 import pathlib
 import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import tufted
+from support import CLOUD
 
 FOLDER = pathlib.Path(tufted.__file__).parent
 STUBS = ast.parse((FOLDER / "__init__.pyi").read_text())
@@ -105,9 +109,21 @@ def test_docstrings_name_every_argument(name, value):
     function = value.__init__ if inspect.isclass(value) else value
     missing = [p for p in inspect.signature(function).parameters
                if p not in ("self", "options") and not re.search(rf"\b{p}\b", text)]
-    short = {"source_ind", "source_inds", "v_ind", "v_inds", "V", "F", "path", "vector", "vectors", "values",
+    short = {"p_ind", "p_inds", "v_ind", "v_inds", "V", "F", "path", "vector", "vectors", "values",
              "directory", "time_step", "k", "spectrum"}
     assert set(missing) <= short, f"{name}: {missing}"
+
+
+EXAMPLES = [test for test in itertools.chain.from_iterable(
+    doctest.DocTestFinder(exclude_empty=True).find(module, globs={"tufted": tufted, "np": np, "points": CLOUD})
+    for name, module in sys.modules.items() if name.startswith("tufted._") and hasattr(module, "__file__")
+    and module.__file__.endswith(".py")) if test.examples]
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda test: test.name)
+def test_examples_of_help_run(example):
+    """`points` are those of a sphere."""
+    assert doctest.DocTestRunner().run(example).failed == 0
 
 
 def test_typed():

@@ -51,6 +51,9 @@ struct Picture {
 /// exist, or a size, camera or range out of range
 Picture drawPicture(const Scene& scene, const PictureOptions& options = {});
 
+/// The bytes of a PNG file: red, green and blue, and alpha if some pixel is not opaque.
+std::string pngOf(const Picture& picture);
+
 /// Writes drawPicture() to a PNG file, completely or not at all, as writePage() does.
 /// @param path name of the file, in a directory that exists
 /// @throws InvalidInput for the same reasons as drawPicture()

@@ -6,7 +6,7 @@ import contextlib
 import numpy as np
 import scipy.sparse
 
-from ._tufted import InvalidInput, SolverFailure
+from ._tufted import Cancelled, InvalidInput, SolverFailure
 
 _LARGEST = 2**31 - 1
 
@@ -116,7 +116,7 @@ def columns(function, name, value, rows):
         array = array.reshape(1)
     if array.ndim not in (1, 2) or array.shape[0] != rows:
         raise InvalidInput(f"{function}: {name} has the shape {_shape(array)}, must be {rows} or {rows} x c")
-    return array.reshape(rows, -1) if array.ndim == 1 else array, array.ndim == 1
+    return array[:, None] if array.ndim == 1 else array, array.ndim == 1
 
 
 def pins(function, pins_given, values, count):
@@ -151,6 +151,12 @@ def callback(function, value):
     if value is not None and not callable(value):
         raise InvalidInput(f"{function}: progress = {value!r}, must be None or a function of stage and fraction")
     return value
+
+
+def report(function, progress, fraction):
+    """Calls `progress` with the name of a function of the package, which computes in Python, as its stage."""
+    if progress is not None and progress(function, fraction) is False:
+        raise Cancelled(f"{function}: progress returned False")
 
 
 def sparse(parts, size):

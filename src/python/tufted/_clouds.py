@@ -47,6 +47,13 @@ class PointCloud(Surface):
     threads: at most this many; 0: one per processor. solver: "automatic", "cholesky" or "multigrid". memory_limit: most
     bytes for factors; 0: half of the available memory. All methods use these three.
     progress: see Surface.
+
+    >>> cloud = tufted.PointCloud(points)
+    >>> cloud.L.shape == (len(points), len(points))
+    True
+    >>> values, vectors = cloud.spectrum(4)
+    >>> print(values.round(1))  # of a sphere
+    [0. 2. 2. 2.]
     """
 
     def __init__(self, points, preset="scan", neighbors=30, normals=None, *, viewpoint=None, image=None, rings=None,
@@ -114,6 +121,10 @@ class Mesh(Surface):
     mollify, order, seed, threads, solver, memory_limit, progress: as in PointCloud.
     weld: whether vertices of equal position are joined; all keep their index, and the first of each position represents
     the others.
+
+    >>> mesh = tufted.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> mesh
+    <tufted.Mesh: 4 points, 2 faces, 1 component, area 1>
     """
 
     def __init__(self, points, faces, *, mollify=_tufted.default_mollify, order="angle", seed=0, weld=False, threads=0,

@@ -1,10 +1,27 @@
 """The methods of Surface that measure distances, or carry values and vectors along the surface."""
+import os
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 
 from . import _arguments as check
 from . import _tufted
 from ._results import Isoline, LogMap, Path, Trace
 from ._tufted import InvalidInput
+
+
+def _in_threads(call, count, threads):
+    """Yields the results of call(0), ..., call(count - 1), on at most `threads` threads, 0: one per processor. Calls
+    that have not begun are left out if the caller stops.
+    """
+    if threads == 1:
+        yield from map(call, range(count))
+        return
+    pool = ThreadPoolExecutor(threads or os.cpu_count())
+    try:
+        yield from pool.map(call, range(count))
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 class Distances:
@@ -23,6 +40,11 @@ class Distances:
         mean squared length of edges, or "adapted", the same for very uneven density. open_boundary: of heat: whether it
         passes the boundary as if the surface went on; None: True.
         Returns N values >= 0, length; infinite where no path leads.
+
+        >>> cloud = tufted.PointCloud(points)
+        >>> from_one, from_either = cloud.distance(0), cloud.distance([0, 5])
+        >>> bool(from_either[5] == 0 and from_one[5] > 0)
+        True
         """
         places = self._places("distance", sources, faces, barycentric)
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
@@ -39,6 +61,28 @@ class Distances:
         places = self._places("nearest_source", sources, faces, barycentric)
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.nearest(places, check.callback("nearest_source", progress))
+
+    def distance_matrix(self, sources, *, method="marching", split=None, maximum=None, time_step=None, unit=None,
+                        open_boundary=None, progress=None):
+        """The geodesic distance of every point from each of some sources, as `tufted distance --matrix`: the sources
+        are marched from at once on as many threads as the surface may use.
+
+        sources: S indices. method, split, maximum, time_step, unit, open_boundary: as in distance().
+        Returns N x S, length. A distance from i to j differs from that from j to i by some thousandths of the largest
+        one; where that matters take the mean, d = distance_matrix(s)[s]; (d + d.T) / 2.
+        """
+        where = check.indices("distance_matrix", "sources", sources, len(self))
+        progress = check.callback("distance_matrix", progress)
+        solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
+        found = np.empty((len(self), where.size), order="F")
+
+        def fill(k):
+            place = self._places("distance_matrix", where[k:k + 1], None, None)
+            found[:, k] = solver.query(place, None)
+
+        for done, _ in enumerate(_in_threads(fill, where.size, self._solving["threads"]), 1):
+            check.report("distance_matrix", progress, done / where.size)
+        return found
 
     def points_within(self, sources, radius, *, split=None, progress=None):
         """Finds the points whose geodesic distance from the nearest of some sources is at most a radius. On a cloud
@@ -65,9 +109,31 @@ class Distances:
         for name, point in zip(("start", "end"), ends):
             if point.size != 1:
                 raise InvalidInput(f"path: {name} has {point.size} indices, must be one")
-        solver = self._keep("path", lambda: _tufted.PathSolver(
-            self._laplacian, self._solver(), check.callback("path", progress)))
-        return Path(*solver.path(int(ends[0][0]), int(ends[1][0]), check.callback("path", progress)))
+        progress = check.callback("path", progress)
+        solver = self._keep("path", lambda: self._path_solver("path", progress))
+        return Path(*solver.path(int(ends[0][0]), int(ends[1][0]), progress))
+
+    def path_through(self, points, *, closed=False, progress=None):
+        """Straightens a way through several points, which says on which side of handles and hills the path passes: no
+        path near it is shorter. It need not pass the inner points. On a cloud it runs over triangles().
+
+        points: at least two indices. closed: whether the way leads back from the last to the first: a geodesic loop,
+        which keeps none of the points, and contracts to a single one where nothing holds it.
+        Returns points (K x 3; of a loop without the first one again) and the length along the surface. Raises
+        InvalidInput if no path leads.
+        """
+        stops = check.indices("path_through", "points", points, len(self))
+        progress = check.callback("path_through", progress)
+        solver = self._keep("path through", lambda: self._path_solver("path_through", progress))
+        return Path(*solver.through(self.representative[stops], bool(closed), progress))
+
+    def _path_solver(self, function, progress):
+        """For paths in a class on a cloud those of triangles(), which do not overlap."""
+        laplacian = self._laplacian
+        if function == "path_through" and self._faces is None:
+            options = {"order": "angle", "seed": 0, "mollify": 0.0, "weld": False, "threads": self._solving["threads"]}
+            laplacian = _tufted.build_mesh(self.positions, self._joined_faces(function), options, progress)
+        return _tufted.PathSolver(laplacian, self._solver(), progress)
 
     def trace(self, source, direction, length, *, barycentric=None, progress=None):
         """Follows a straight line over the triangles of a mesh, or those of triangles(): the exponential map.
@@ -78,6 +144,10 @@ class Distances:
         Returns points (K x 3, from the start over all edges that the line crosses to the end), length, ended_by
         ("length"; "rim": the surface ends; "branch": more than two triangles meet; "crossings": after a million),
         direction (3, at the end), corners and barycentric (3 each, the place of the end).
+
+        >>> mesh = tufted.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> mesh.trace(0, [1, 1, 0], 1).ended_by
+        'length'
         """
         direction = check.vector_of_three("trace", "direction", direction)
         length = check.number("trace", "length", length)
@@ -101,6 +171,10 @@ class Distances:
         Returns a list, in the order of `values`: of each line points (K x 3, in order; a closed line does not repeat
         its first point), value, length, closed. Larger values lie to the left, seen from the front of the triangles.
         Lines end where the surface ends and where more than two triangles meet; on a closed surface all are closed.
+
+        >>> mesh = tufted.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> [line.length for line in mesh.isolines([0, 1, 1, 0], 0.5)]
+        [1.0]
         """
         field, _ = check.columns("isolines", "field", field, len(self))
         values, _ = check.columns("isolines", "values", np.atleast_1d(values), np.size(values))

@@ -1,4 +1,4 @@
-"""Functions and classes with the names and arguments of robust_laplacian and potpourri3d."""
+"""The Laplacians of robust_laplacian and the heat solvers of potpourri3d, by their names and arguments."""
 import numpy as np
 import scipy.sparse
 
@@ -58,35 +58,40 @@ class _HeatSolver:
         """The PointCloud or Mesh that is solved on, with all other methods."""
         return self._surface
 
+    def _distances(self, sources):
+        return self._surface.distance(sources, method="heat", time_step=_DISTANCE_STEP * self._t_coef)
 
-class _Distances(_HeatSolver):
-    def compute_distance(self, source_ind):
-        """Geodesic distances from one point by the heat method: N values; infinite where no path leads."""
-        return self.compute_distance_multisource([source_ind])
+    def _signed(self, curves, level_set_constraint, solver=None):
+        """The signed distance from the nearest of some curves, each a list of indices; infinite where no path leads."""
+        if level_set_constraint != "ZeroSet":
+            raise InvalidInput(f"{type(self).__name__}: level_set_constraint = {level_set_constraint!r}, must be "
+                               "'ZeroSet': each curve has the distance 0")
+        step = _VECTOR_STEP * self._t_coef
+        query = solver or (lambda curve: self._surface.signed_distance(curve, time_step=step))
+        return nearest_of([query(check.indices(type(self).__name__, "curves", curve, len(self._surface)))
+                           for curve in curves])
 
-    def compute_distance_multisource(self, source_inds):
-        """Geodesic distances from the nearest of several points: N values; infinite where no path leads."""
-        return self._surface.distance(source_inds, method="heat", time_step=_DISTANCE_STEP * self._t_coef)
+
+def nearest_of(distances):
+    """Of several signed distances at each point the one of least size; infinite where all are NaN."""
+    if not len(distances):
+        raise InvalidInput("compute_distance: curves and points are empty, must have at least one source")
+    table = np.where(np.isnan(distances), np.inf, distances)
+    return np.take_along_axis(table, abs(table).argmin(axis=0)[None], axis=0)[0]
 
 
 class _Vectors(_HeatSolver):
-    def extend_scalar(self, source_inds, values):
-        """Extends values from some points to all: N values, nearly those of the nearest source."""
-        return self._surface.extend(source_inds, values, time_step=_VECTOR_STEP * self._t_coef)
-
     def get_tangent_frames(self):
         """The x axes, the y axes and the normals of the points: three arrays of N x 3."""
         frames = self._surface.frames
         return frames[:, 0], frames[:, 1], frames[:, 2]
 
-    def transport_tangent_vector(self, source_ind, vector):
-        """Transports a tangent vector of one point, 2 coordinates in its frame, to all: N x 2 in their frames."""
-        return self.transport_tangent_vectors([source_ind], [vector])
+    def _extended(self, sources, values):
+        return self._surface.extend(sources, values, time_step=_VECTOR_STEP * self._t_coef)
 
-    def transport_tangent_vectors(self, source_inds, vectors):
-        """Transports tangent vectors of S points, S x 2 in their frames, to all points: N x 2 in their frames."""
+    def _transported(self, sources, vectors, name):
         surface = self._surface
-        where = check.indices("transport_tangent_vectors", "source_inds", source_inds, len(surface))
+        where = check.indices("transport_tangent_vectors", name, sources, len(surface))
         table, _ = check.columns("transport_tangent_vectors", "vectors", vectors, where.size)
         if table.shape[1] != 2:
             raise InvalidInput(f"transport_tangent_vectors: vectors has {table.shape[1]} columns, must have 2")
@@ -95,16 +100,15 @@ class _Vectors(_HeatSolver):
                                     time_step=_VECTOR_STEP * self._t_coef)
         return np.einsum("nj,nij->ni", carried, tangents)
 
-    def compute_log_map(self, source_ind):
-        """The logarithmic map around one point: N x 2, along the first two axes of its frame."""
+    def _log_map(self, source, name):
         surface = self._surface
-        source = check.indices("compute_log_map", "source_ind", source_ind, len(surface))[0]
+        source = check.indices("compute_log_map", name, source, len(surface))[0]
         x, y = surface.frames[source, :2]
         coordinates, axes = surface.log_map(source, axis=x, time_step=_VECTOR_STEP * self._t_coef)
         return coordinates * [1.0, np.sign(axes[1] @ y)]  # negated where log_map() turned the normal
 
 
-class PointCloudHeatSolver(_Distances, _Vectors):
+class PointCloudHeatSolver(_Vectors):
     """Distances, vectors and log map on a cloud, as potpourri3d.PointCloudHeatSolver.
 
     P: N x 3. t_coef: factor of the time steps; 1: the library's own. options: those of PointCloud.
@@ -114,8 +118,46 @@ class PointCloudHeatSolver(_Distances, _Vectors):
         with check.named("PointCloudHeatSolver", points="P"):
             super().__init__(PointCloud(P, **options), t_coef)
 
+    def compute_distance(self, p_ind):
+        """Geodesic distances from point p_ind by the heat method: N values; infinite where no path leads."""
+        return self._distances([p_ind])
 
-class MeshHeatMethodDistanceSolver(_Distances):
+    def compute_distance_multisource(self, p_inds):
+        """Geodesic distances from the nearest of the points p_inds: N values; infinite where no path leads."""
+        return self._distances(p_inds)
+
+    def extend_scalar(self, p_inds, values):
+        """Extends values from the points p_inds to all: N values, nearly those of the nearest source."""
+        return self._extended(p_inds, values)
+
+    def transport_tangent_vector(self, p_ind, vector):
+        """Transports a tangent vector of point p_ind, 2 coordinates in its frame, to all: N x 2 in their frames."""
+        return self._transported([p_ind], [vector], "p_ind")
+
+    def transport_tangent_vectors(self, p_inds, vectors):
+        """Transports tangent vectors, S x 2 in the frames of p_inds, to all points: N x 2 in their frames."""
+        return self._transported(p_inds, vectors, "p_inds")
+
+    def compute_log_map(self, p_ind):
+        """The logarithmic map around point p_ind: N x 2, along the first two axes of its frame."""
+        return self._log_map(p_ind, "p_ind")
+
+    def compute_signed_distance(self, curves, cloud_normals, preserve_source_normals=False,
+                                level_set_constraint="ZeroSet", soft_level_set_weight=-1):
+        """Signed distances from the nearest of some curves, lists of indices, positive to their left as seen from the
+        side that cloud_normals (N x 3) point to. Every curve has the distance 0 on average: level_set_constraint must
+        be "ZeroSet", and preserve_source_normals and soft_level_set_weight are ignored.
+        """
+        surface = self._surface
+        given = check.rows_of_three("compute_signed_distance", "cloud_normals", cloud_normals, len(surface))
+        normals, tangents = surface._frame_parts()
+        side = np.where(np.einsum("ij,ij->i", normals, given) < 0, -1.0, 1.0)[:, None]
+        solver = _tufted.SignedDistanceSolver(surface._laplacian, normals * side, tangents,
+                                              _VECTOR_STEP * self._t_coef, surface._solver(), None)
+        return self._signed(curves, level_set_constraint, lambda curve: solver.query(curve, None))
+
+
+class MeshHeatMethodDistanceSolver(_HeatSolver):
     """Distances on a mesh, as potpourri3d.MeshHeatMethodDistanceSolver.
 
     V: N x 3. F: F x 3. t_coef: factor of the time step; 1: the library's own. use_robust: ignored, the tufted Laplacian
@@ -126,16 +168,96 @@ class MeshHeatMethodDistanceSolver(_Distances):
         with check.named("MeshHeatMethodDistanceSolver", points="V", faces="F"):
             super().__init__(Mesh(V, F, **options), t_coef)
 
+    def compute_distance(self, v_ind):
+        """Geodesic distances from vertex v_ind by the heat method: N values; infinite where no path leads."""
+        return self._distances([v_ind])
 
-class MeshVectorHeatSolver(_Vectors):
+    def compute_distance_multisource(self, v_inds):
+        """Geodesic distances from the nearest of the vertices v_inds: N values; infinite where no path leads."""
+        return self._distances(v_inds)
+
+
+class _MeshVectors(_Vectors):
+    def extend_scalar(self, v_inds, values):
+        """Extends values from the vertices v_inds to all: N values, nearly those of the nearest source."""
+        return self._extended(v_inds, values)
+
+    def transport_tangent_vector(self, v_ind, vector):
+        """Transports a tangent vector of vertex v_ind, 2 coordinates in its frame, to all: N x 2 in their frames."""
+        return self._transported([v_ind], [vector], "v_ind")
+
+    def transport_tangent_vectors(self, v_inds, vectors):
+        """Transports tangent vectors, S x 2 in the frames of v_inds, to all vertices: N x 2 in their frames."""
+        return self._transported(v_inds, vectors, "v_inds")
+
+
+class MeshVectorHeatSolver(_MeshVectors):
     """Extension, vector transport and log map on a mesh, as potpourri3d.MeshVectorHeatSolver.
 
-    V: N x 3. F: F x 3. t_coef: factor of the time step; 1: the library's own. options: those of Mesh.
+    V: N x 3. F: F x 3. t_coef: factor of the time step; 1: the library's own. use_intrinsic_delaunay: ignored, the
+    tufted Laplacian is always intrinsic Delaunay. options: those of Mesh.
     """
 
-    def __init__(self, V, F, t_coef=1.0, **options):
+    def __init__(self, V, F, t_coef=1.0, use_intrinsic_delaunay=True, **options):
+        options.pop("useIntrinsicDelaunay", None)  # the name in potpourri3d's README
         with check.named("MeshVectorHeatSolver", points="V", faces="F"):
             super().__init__(Mesh(V, F, **options), t_coef)
+
+    def get_connection_laplacian(self):
+        """The connection Laplacian, N x N complex csc_matrix, Hermitian: L with each off-diagonal multiplied by the
+        smallest rotation between the frames of its vertices, as a complex number.
+        """
+        surface = self._surface
+        entries = surface.L.tocoo()
+        i, j = entries.row, entries.col
+        x, y, normal = np.moveaxis(surface.frames, 1, 0)
+        cosine = np.einsum("ij,ij->i", normal[i], normal[j])
+        # The x axis of j after the smallest rotation that takes its normal to that of i; opposite normals have none.
+        turned = x[j] - (np.einsum("ij,ij->i", x[j], normal[i]) / np.where(cosine > -1, 1 + cosine, np.inf))[:, None] * (
+            normal[i] + normal[j])
+        rotation = np.einsum("ij,ij->i", turned, x[i]) + 1j * np.einsum("ij,ij->i", turned, y[i])
+        size = abs(rotation)
+        rotation = np.where(i == j, 1, rotation / np.where(size > 0, size, 1))
+        return scipy.sparse.csc_matrix((entries.data * rotation, (i, j)), shape=entries.shape)
+
+    def compute_log_map(self, v_ind, strategy="AffineLocal"):
+        """The logarithmic map around vertex v_ind: N x 2, along the first two axes of its frame. strategy:
+        "VectorHeat", "AffineLocal" or "AffineAdaptive", which all give Surface.log_map().
+        """
+        if strategy not in ("VectorHeat", "AffineLocal", "AffineAdaptive"):
+            raise InvalidInput(f"compute_log_map: strategy = {strategy!r}, must be one of 'VectorHeat', 'AffineLocal', "
+                               "'AffineAdaptive'")
+        return self._log_map(v_ind, "v_ind")
+
+
+class PolygonMeshHeatSolver(_MeshVectors):
+    """Distances and vectors on a mesh of polygons, as potpourri3d.PolygonMeshHeatSolver; each polygon of more than
+    three corners is cut into triangles.
+
+    V: N x 3. F: a list of lists of indices, or F x D. t_coef: factor of the time steps; 1: the library's own.
+    """
+
+    def __init__(self, V, F, t_coef=1.0):
+        with check.named("PolygonMeshHeatSolver", points="V", faces="F"):
+            super().__init__(Mesh(V, triangulated("PolygonMeshHeatSolver", V, F)), t_coef)
+
+    def compute_distance(self, v_inds):
+        """Geodesic distances from the nearest of the vertices v_inds: N values; infinite where no path leads."""
+        return self._distances(v_inds)
+
+    def compute_signed_distance(self, curves, level_set_constraint="ZeroSet"):
+        """Signed distances from the nearest of some curves, lists of vertices, positive to their left. Every curve has
+        the distance 0 on average: level_set_constraint must be "ZeroSet".
+        """
+        return self._signed(curves, level_set_constraint)
+
+
+def triangulated(function, V, F):
+    """The triangles of polygons, F x 3 int32."""
+    points = check.rows_of_three(function, "V", V)
+    polygons = [check.indices(function, "F", polygon, len(points)) for polygon in F]
+    corners = np.concatenate([np.zeros(0, np.int32), *polygons])
+    return _tufted.triangulate(points, corners, np.array([len(each) for each in polygons], np.int32))
 
 
 def compute_distance(V, F, v_ind):
@@ -148,14 +270,3 @@ def compute_distance(V, F, v_ind):
 def compute_distance_multisource(V, F, v_inds):
     """Geodesic distances from the nearest of several vertices of a mesh, N values."""
     return MeshHeatMethodDistanceSolver(V, F).compute_distance_multisource(v_inds)
-
-
-def read_mesh(path):
-    """Reads the vertices, V x 3 float64, and the faces, F x 3 int32, of a file."""
-    geometry = _tufted.read_file(path, "mesh", False, None)
-    return np.array(geometry.points), np.array(geometry.triangles)
-
-
-def read_point_cloud(path):
-    """Reads the points of a file, N x 3 float64; faces are ignored."""
-    return np.array(_tufted.read_file(path, "cloud", False, None).points)

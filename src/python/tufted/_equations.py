@@ -18,6 +18,11 @@ class Equations:
 
         pins: {index: value, ...}, or P indices with `values`, P or P x c.
         Returns N or N x c, within the range of the pinned values; NaN on components without a pin.
+
+        >>> cloud = tufted.PointCloud(points)
+        >>> u = cloud.harmonic({0: 1, 5: 3})
+        >>> bool(u[0] == 1 and u[5] == 3 and u.max() <= 3)
+        True
         """
         return self._interpolate("harmonic", pins, values, progress)
 

@@ -1,4 +1,6 @@
-"""Results of methods that return several values."""
+"""Results of methods that return several values, or something to look at."""
+import html
+import os
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +17,22 @@ class Spectrum(NamedTuple):
     """The first eigenpairs of L x = lambda M x, see Surface.spectrum()."""
     values: np.ndarray
     vectors: np.ndarray
+
+
+class Signature(np.ndarray):
+    """The N x T array of Surface.hks() or Surface.wks(), which knows where its columns were computed.
+
+    times: T times of hks(), length^2. energies, width: T energies of wks() and their width, natural logarithms of
+    eigenvalues. Those of the other kind are None, and all are None on parts and on results of arithmetic.
+    """
+    times = energies = width = None
+
+
+def signature(values, **where):
+    """`values` as a Signature computed at these times, or at these energies with this width."""
+    found = values.view(Signature)
+    vars(found).update(where)
+    return found
 
 
 class Gradients(NamedTuple):
@@ -96,7 +114,45 @@ class Isoline(NamedTuple):
     closed: bool
 
 
+class PointMaps(NamedTuple):
+    """Maps between the points of two shapes, see point_maps()."""
+    to_target: np.ndarray
+    to_source: np.ndarray
+
+
 class LogMap(NamedTuple):
     """Coordinates around a point, see Surface.log_map()."""
     coordinates: np.ndarray
     axes: np.ndarray
+
+
+class Picture(NamedTuple):
+    """A picture of a surface, see Surface.picture(). A notebook shows it.
+
+    png: the bytes of a PNG file.
+    """
+    png: bytes
+
+    def save(self, path):
+        """Writes the picture to a file. path: its name, which should end in .png."""
+        with open(os.fspath(path), "wb") as file:
+            file.write(self.png)
+
+    def _repr_png_(self):
+        return self.png
+
+    def __repr__(self):
+        width, height = (int.from_bytes(self.png[at:at + 4], "big") for at in (16, 20))  # in the header of a PNG file
+        return f"<tufted.Picture: {width} x {height} pixels, {len(self.png):,} bytes>"
+
+
+class Page(str):
+    """The text of an HTML page that shows a surface, see Surface.page(). A notebook shows the page itself."""
+
+    def _repr_html_(self, title="tufted"):
+        # The sandbox keeps the page's scripts out of the notebook.
+        return (f'<iframe srcdoc="{html.escape(self)}" sandbox="allow-scripts allow-downloads" width="100%" '
+                f'height="480" style="border: 0" title="{html.escape(title)}"></iframe>')
+
+    def __repr__(self):
+        return f"<tufted.Page: {len(self):,} characters>"

@@ -2,11 +2,32 @@
 import warnings
 
 import numpy as np
+import scipy.sparse
 
 from . import _arguments as check
 from . import _tufted
 from ._results import Curvature, Deformation, MinimalSurface, Parameterization, Segments, TuftedWarning
 from ._tufted import InvalidInput
+
+
+def triangle_areas(points, faces):
+    """The areas of F triangles."""
+    a, b, c = (points[faces[:, k]] for k in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def lumped_areas(points, faces):
+    """A third of the area of each triangle at each of its corners: N values."""
+    return np.bincount(faces.ravel(), np.repeat(triangle_areas(points, faces) / 3, 3), minlength=len(points))
+
+
+def _flowed(L, masses, time_step, x):
+    """Solves (M + t L) y = M x, one implicit step."""
+    from scipy.sparse.linalg import splu  # slow to import
+    # Points of collapsed triangles have no mass; the least one keeps the matrix regular where L is 0, too.
+    masses = np.maximum(masses, np.finfo(float).tiny + 1e-12 * masses.mean())
+    return splu((scipy.sparse.diags(masses) + time_step * L).tocsc(), permc_spec="MMD_AT_PLUS_A",
+                options={"SymmetricMode": True}).solve(masses[:, None] * x)
 
 
 class Shape:
@@ -103,6 +124,47 @@ class Shape:
             check.whole("smooth_values", "iterations", iterations, 1), self._marks("smooth_values", fixed),
             self._solving["threads"], check.callback("smooth_values", progress))
         return result[:, 0] if flat else result
+
+    def mean_curvature_flow(self, *, steps=10, time_step=0.01, progress=None):
+        """Moves the points by the conformalised mean curvature flow (Kazhdan, Solomon, Ben-Chen 2012), which turns a
+        closed surface without handles into a sphere and, unlike the flow itself, pinches no necks. Each step solves
+        (M + t L) x = M x_old with the areas M of the moved triangles and the L of this surface.
+
+        steps: number of steps, >= 1. time_step: t, > 0, as a share of the surface's area.
+        Returns N x 3, scaled about the middle of the surface so that its area stays; isolated and non-finite points
+        keep their place.
+
+        >>> egg = tufted.PointCloud(points * [2, 1, 1])
+        >>> ball = egg.mean_curvature_flow(steps=30, time_step=0.05)
+        >>> radius = np.linalg.norm(ball, axis=1)
+        >>> bool(radius.std() < 0.02 * radius.mean())
+        True
+        """
+        steps = check.whole("mean_curvature_flow", "steps", steps, 1)
+        time_step = check.number("mean_curvature_flow", "time_step", time_step)
+        if not (time_step > 0 and np.isfinite(time_step)):
+            raise InvalidInput(f"mean_curvature_flow: time_step = {time_step:g}, must be finite and above 0")
+        progress = check.callback("mean_curvature_flow", progress)
+        moving = np.flatnonzero(self.status == 0)
+        if not moving.size:
+            return self._points.copy()
+        numbers = np.full(len(self), -1)
+        numbers[moving] = np.arange(moving.size)
+        faces = numbers[self._joined_faces("mean_curvature_flow")]
+        faces = faces[(faces >= 0).all(axis=1)]
+        L, x = self.L[moving][:, moving], self.positions[moving]
+        masses = lumped_areas(x, faces)
+        area, middle = masses.sum(), masses @ x / masses.sum()
+        x = x - middle
+        for step in range(steps):
+            check.report("mean_curvature_flow", progress, step / steps)
+            x = _flowed(L, masses, time_step * area, x)
+            masses = lumped_areas(x, faces)
+            scale = np.sqrt(area / masses.sum())
+            x, masses = (x - masses @ x / masses.sum()) * scale, masses * scale**2
+        moved = self._points.copy()
+        moved[moving] = x + middle
+        return np.where((self.status == 2)[:, None], moved[self.representative], moved)
 
     def parameterize(self, *, method="conformal", weights="laplacian", rim=None, rim_positions=None, progress=None):
         """Lays the surface out in the plane.

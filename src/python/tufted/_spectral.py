@@ -3,8 +3,10 @@ import numpy as np
 
 from . import _arguments as check
 from . import _tufted
-from ._results import Spectrum
+from ._results import Spectrum, signature
 from ._tufted import InvalidInput
+
+_LEAST_WIDTH = 1e-8  # of wks(): that of waveKernelSignature() in C++, far above the rounding of logarithms
 
 
 class Spectral:
@@ -24,40 +26,51 @@ class Spectral:
 
     def hks(self, times=None, *, k=100, samples=16, spectrum=None, progress=None):
         """The heat kernel signature of every point: sum of exp(-lambda t) phi(x)^2 over the null space and k further
-        eigenpairs.
+        eigenpairs (Sun, Ovsjanikov, Guibas 2009).
 
         times: T values >= 0, length^2; None: `samples` times at which k pairs suffice, evenly spaced on a logarithmic
-        scale.
-        k: number of positive eigenvalues; all if there are fewer.
+        scale. They follow from the eigenvalues, so each surface has its own: to compare two, give the second one the
+        `times` of the first one's result.
+        k: number of positive eigenvalues; all if there are fewer. The last result of spectrum() is
+        used if it has as many.
         spectrum: a result of spectrum(), used instead of k.
-        Returns N x T, 1/length^2.
+        Returns N x T, 1/length^2, with the times as its attribute `times`.
+
+        >>> a, b = tufted.PointCloud(points), tufted.PointCloud(2 * points)
+        >>> first = a.hks(k=20)
+        >>> second = b.hks(4 * first.times, k=20)  # areas are four times as large
+        >>> np.allclose(first, 4 * second)
+        True
         """
         pairs = self._positive("hks", k, spectrum, progress)
         if times is None:
             times = _tufted.heat_times(pairs, check.whole("hks", "samples", samples, 1))
         else:
             times = check.columns("hks", "times", times, np.size(times))[0].reshape(-1)
-        return _tufted.hks(self._laplacian, pairs, times)
+        return signature(_tufted.hks(self._laplacian, pairs, times), times=times)
 
     def wks(self, energies=None, *, width=None, k=100, samples=100, spectrum=None, progress=None):
-        """The wave kernel signature of every point: a weighted mean of phi(x)^2 over eigenvalues near each energy.
+        """The wave kernel signature of every point: a weighted mean of phi(x)^2 over eigenvalues near each energy
+        (Aubry, Schlickewei, Cremers 2011).
 
         energies: E natural logarithms of eigenvalues; None: `samples` of them, evenly spaced between those of the
-        smallest and the largest positive eigenvalue.
-        width: standard deviation of the energy, used with `energies`; None: seven times the distance between the first
-        two energies.
+        smallest and the largest positive eigenvalue, so each surface has its own; see hks().
+        width: standard deviation of the energy; None: seven times the distance between the first two energies.
         k, spectrum: as in hks().
-        Returns N x E, 1/length^2.
+        Returns N x E, 1/length^2, with the attributes `energies` and `width`.
         """
         pairs = self._positive("wks", k, spectrum, progress)
         if energies is None:
-            return _tufted.wks(pairs, check.whole("wks", "samples", samples, 2))
-        energies = check.columns("wks", "energies", energies, np.size(energies))[0].reshape(-1)
+            energies = _tufted.wave_energies(pairs, check.whole("wks", "samples", samples, 2))
+            width = max(7 * (energies[1] - energies[0]), _LEAST_WIDTH) if width is None else width
+        else:
+            energies = check.columns("wks", "energies", energies, np.size(energies))[0].reshape(-1)
         if width is None:
             if energies.size < 2:
                 raise InvalidInput("wks: width = None, must be given for fewer than two energies")
             width = 7 * abs(energies[1] - energies[0])
-        return _tufted.wks_at(pairs, energies, check.number("wks", "width", width))
+        width = check.number("wks", "width", width)
+        return signature(_tufted.wks_at(pairs, energies, width), energies=energies, width=width)
 
     def embed(self, dimension=None, *, distance="commute", progress=None):
         """Places every point so that Euclidean distances are spectral distances, one coordinate per positive
@@ -101,11 +114,31 @@ class Spectral:
 
     def _positive(self, function, k, spectrum, progress):
         """Pairs of positive eigenvalues: those of `spectrum`, or the first k if it is None."""
-        if spectrum is None:
-            most = _tufted.most_eigenpairs(self._laplacian, False)
-            if most < 1:
-                raise InvalidInput(f"{function}: no eigenvalue is positive, must be one: too few points take part")
-            return self._pairs(min(check.whole(function, "k", k, 1), most), False, 1e-10, progress)
-        values, vectors = spectrum
-        vectors, _ = check.columns(function, "spectrum", vectors, len(self))
-        return _tufted.Spectrum(np.asarray(values, np.float64), vectors).positive()
+        if spectrum is not None:
+            values, vectors = spectrum
+            vectors, _ = check.columns(function, "spectrum", vectors, len(self))
+            return _tufted.Spectrum(np.asarray(values, np.float64), vectors).positive()
+        most = _tufted.most_eigenpairs(self._laplacian, False)
+        if most < 1:
+            raise InvalidInput(f"{function}: no eigenvalue is positive, must be one: too few points take part")
+        k = min(check.whole(function, "k", k, 1), most)
+        kept = self._kept_pairs()
+        pairs = kept and kept.positive()
+        if pairs is None or len(pairs.values) < k:
+            return self._pairs(k, False, 1e-10, progress)
+        return _tufted.Spectrum(pairs.values[:k], pairs.vectors[:, :k])
+
+    def _first_pairs(self, k, progress):
+        """The first k pairs, zeros included, or as many as there are; those of the last result of spectrum() if they
+        suffice.
+        """
+        k = self._count(None, k, True)
+        kept = self._kept_pairs()
+        if kept is None or len(kept.values) < k:
+            return self.spectrum(k, progress=progress)
+        return Spectrum(kept.values[:k], kept.vectors[:, :k])
+
+    def _kept_pairs(self):
+        """The pairs of the last call of spectrum() with its defaults for all but k, or None."""
+        (_, *settings), pairs = self._kept.get("spectrum", ((0, True, 1e-10), None))
+        return pairs if settings == [True, 1e-10] else None

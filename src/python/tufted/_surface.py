@@ -1,5 +1,4 @@
 """The class Surface: L and M, and all algorithms on them, which clouds and meshes share."""
-import html
 import warnings
 
 import numpy as np
@@ -8,16 +7,14 @@ from . import _arguments as check
 from . import _tufted
 from ._distances import Distances
 from ._equations import Equations, frames_of
+from ._figures import Figures
 from ._results import TuftedWarning
 from ._shape import Shape
 from ._spectral import Spectral
 from ._tufted import InvalidInput
 
-# A notebook shows surfaces of up to this many points as a page, which adds up to some ten megabytes to its file.
-_LARGEST_PAGE = 500_000
 
-
-class Surface(Spectral, Distances, Equations, Shape):
+class Surface(Spectral, Distances, Equations, Shape, Figures):
     """L and M of a cloud or a mesh, and the algorithms on them. Made by PointCloud, Mesh, read and load.
 
     N is the number of points. Lengths are in the points' unit. Results at a coincident point are those of its
@@ -123,21 +120,6 @@ class Surface(Spectral, Distances, Equations, Shape):
         count = report["components"]
         return (f"<tufted.{type(self).__name__}: {size}, {count:,} component{'' if count == 1 else 's'}, "
                 f"area {report['area']:.6g}>")
-
-    def _repr_html_(self):
-        if len(self) > _LARGEST_PAGE:
-            return f"<pre>{html.escape(repr(self))}</pre>"
-        labels = self.components.astype(np.float64).reshape(-1, 1)
-        boundary = self.boundary.astype(np.float64).reshape(-1, 1) - 1  # "none" becomes -1, drawn grey
-        fields = [("area of a point", "positive", self.M.reshape(-1, 1), "", [], ""),
-                  ("component", "label", labels, "", [], ""),
-                  ("boundary", "label", boundary, "", ["rim", "jump", "lost"], "none")]
-        faces = np.zeros((0, 3), np.int32) if self._faces is None else self._faces
-        page = _tufted.page(self._source or f"tufted.{type(self).__name__}", self._points, faces,
-                            self._frame_parts()[0], fields)
-        # The sandbox keeps the page's scripts out of the notebook.
-        return (f'<iframe srcdoc="{html.escape(page)}" sandbox="allow-scripts allow-downloads" width="100%" '
-                f'height="480" style="border: 0" title="{html.escape(repr(self))}"></iframe>')
 
     def __getstate__(self):
         arrays = (self._points, self._faces) if self._geometry is None else None  # None: the geometry has them

@@ -1,0 +1,290 @@
+"""Distances from curves, and lines on meshes, by potpourri3d's names and arguments."""
+import numpy as np
+
+from . import _arguments as check
+from . import _tufted
+from ._clouds import Mesh, PointCloud
+from ._drop_in import _VECTOR_STEP, nearest_of
+from ._drop_in_files import edges
+from ._tufted import InvalidInput
+
+_PIECES = 8  # of a segment of a curve, whose ends are sources: distances are off by 1/16 of the segment next to it
+_ROUNDING = 1e-12  # of barycentric coordinates that the caller has computed
+
+
+class _MeshPlaces:
+    """A mesh on which places are given as (vertex, []), (edge, [t]), t from the lower to the higher index of the rows
+    of edges(), or (face, [a, b]) and (face, [a, b, c]), barycentric coordinates.
+    """
+
+    def __init__(self, function, V, F):
+        with check.named(function, points="V", faces="F"):
+            self._surface = Mesh(V, F)
+        self._edges = edges(V, self._surface.faces)
+        self._name = function
+
+    @property
+    def surface(self):
+        """The Mesh that is solved on, with all other methods."""
+        return self._surface
+
+    def _position(self, place):
+        """The vertices of its edge or face that a place lies between, and their weights; of a vertex it alone."""
+        index, *rest = place
+        given = np.asarray(rest[0] if rest else [], np.float64).reshape(-1)
+        if given.size == 0:
+            return check.indices(self._name, "curves", index, len(self._surface)), np.ones(1)
+        corners = self._edges if given.size == 1 else self._surface.faces
+        index = check.indices(self._name, "curves", index, len(corners))[0]
+        weights = {1: lambda: np.append(1 - given, given), 2: lambda: np.append(given, 1 - given.sum())}.get(
+            given.size, lambda: given)()
+        if weights.size > 3 or not (weights >= -_ROUNDING).all() or not weights.sum() > 0:
+            raise InvalidInput(f"{self._name}: curves has the coordinates {given}, must be one to three in [0, 1]")
+        used = weights > _ROUNDING
+        return corners[index][used], weights[used]
+
+    def _face_around(self, vertices):
+        """A face that has all these vertices, or -1."""
+        has = np.logical_and.reduce([(self._surface.faces == vertex).any(axis=1) for vertex in vertices])
+        return int(has.argmax()) if has.any() else -1
+
+    def _in_face(self, face, vertices, weights):
+        corners = self._surface.faces[face]
+        return np.array([weights[vertices == corner].sum() for corner in corners])
+
+    def _along(self, curve):
+        """Faces and barycentric coordinates of points along a curve. Between two places of one face it is straight;
+        between others it has a gap.
+        """
+        places = [self._position(place) for place in curve]
+        faces, coordinates = [], []
+        for k, (vertices, weights) in enumerate(places):
+            ends = places[k + 1:k + 2] or [(vertices, weights)]
+            face = self._face_around(np.union1d(vertices, ends[0][0]))
+            pieces = _PIECES if face >= 0 and k + 1 < len(places) else 1
+            face = face if face >= 0 else self._face_around(vertices)
+            if face < 0:
+                raise InvalidInput(f"{self._name}: curves has the vertex {vertices[0]}, must be a corner of a face")
+            start = self._in_face(face, vertices, weights)
+            end = self._in_face(face, *ends[0]) if pieces > 1 else start
+            faces += pieces * [face]
+            coordinates += [start + (end - start) * piece / pieces for piece in range(pieces)]
+        return faces, coordinates
+
+    def _unsigned(self, curves):
+        faces, coordinates = [], []
+        for curve in curves:
+            more_faces, more_coordinates = self._along(curve)
+            faces += more_faces
+            coordinates += more_coordinates
+        if not faces:
+            return np.full(len(self._surface), np.inf)
+        return self._surface.distance(faces=np.array(faces), barycentric=np.array(coordinates))
+
+    def _signed_along(self, curve, time_step=_VECTOR_STEP):
+        """The signed distance by heat from a curve of vertices; other places count as the vertex they are nearest to.
+        """
+        indices = [int(vertices[weights.argmax()]) for vertices, weights in map(self._position, curve)]
+        return self._surface.signed_distance(indices, time_step=time_step)
+
+    def _signed(self, curve, time_step=_VECTOR_STEP):
+        """The same by marching with the sign of heat, where places lie within edges and faces."""
+        by_heat = self._signed_along(curve, time_step)
+        if all(len(self._position(place)[0]) == 1 for place in curve):
+            return by_heat
+        return np.copysign(self._unsigned([curve]), by_heat)
+
+
+class MeshFastMarchingDistanceSolver(_MeshPlaces):
+    """Distances from curves on a mesh by marching, as potpourri3d.MeshFastMarchingDistanceSolver.
+
+    V: N x 3. F: F x 3.
+    """
+
+    def __init__(self, V, F):
+        super().__init__("MeshFastMarchingDistanceSolver", V, F)
+
+    def compute_distance(self, curves, distances=(), sign=False):
+        """Distances from the nearest of some curves: N values; infinite where no path leads.
+
+        curves: lists of places: (vertex, []), (edge, [t]), (face, [a, b]) or (face, [a, b, c]). Neighbours in a list
+        are joined by a straight segment if they lie in one face.
+        distances: those at the places, which must be 0 or left out.
+        sign: whether distances to the right of the curves are negative, by the signed heat method. For it, places within
+        edges and faces count as the nearest corner, so next to them the sign may be wrong.
+        """
+        if any(np.any(np.asarray(values) != 0) for values in distances):
+            raise InvalidInput("compute_distance: distances has values, must be 0 or empty")
+        found = self._unsigned(curves)
+        return np.copysign(found, nearest_of([self._signed_along(curve) for curve in curves])) if sign else found
+
+
+class MeshSignedHeatSolver(_MeshPlaces):
+    """Signed distances from curves on a mesh by heat, as potpourri3d.MeshSignedHeatSolver.
+
+    V: N x 3. F: F x 3. t_coef: factor of the time step; 1: the library's own.
+    """
+
+    def __init__(self, V, F, t_coef=1.0):
+        super().__init__("MeshSignedHeatSolver", V, F)
+        self._time_step = _VECTOR_STEP * check.number("MeshSignedHeatSolver", "t_coef", t_coef)
+
+    def compute_distance(self, curves, curve_signs=(), points=(), preserve_source_normals=False,
+                         level_set_constraint="ZeroSet", soft_level_set_weight=-1):
+        """Distances from the nearest of some curves and points: N values, positive to the left of curves; infinite
+        where no path leads.
+
+        curves: lists of places as in MeshFastMarchingDistanceSolver. Of a curve with places within edges and faces the
+        distance is that of marching, with the sign of heat.
+        curve_signs: a boolean for each curve, False for distances without sign; empty: all have one.
+        points: vertices, from which distances have no sign.
+        level_set_constraint: must be "ZeroSet". preserve_source_normals, soft_level_set_weight: ignored.
+        """
+        if level_set_constraint != "ZeroSet":
+            raise InvalidInput(f"compute_distance: level_set_constraint = {level_set_constraint!r}, must be 'ZeroSet'")
+        signs = list(curve_signs) or [True] * len(curves)
+        if len(signs) != len(curves):
+            raise InvalidInput(f"compute_distance: curve_signs has {len(signs)} values, must have {len(curves)}")
+        found = [self._signed(curve, self._time_step) for curve, sign in zip(curves, signs) if sign]
+        unsigned = [curve for curve, sign in zip(curves, signs) if not sign] + [[(point, [])] for point in points]
+        return nearest_of(found + ([self._unsigned(unsigned)] if unsigned else []))
+
+
+class MeshMarchingTrianglesSolver(_MeshPlaces):
+    """Lines on which a field has a value, as potpourri3d.MeshMarchingTrianglesSolver.
+
+    V: N x 3. F: F x 3.
+    """
+
+    def __init__(self, V, F):
+        super().__init__("MeshMarchingTrianglesSolver", V, F)
+
+    def marching_triangles(self, u, isoval=0.0):
+        """The lines on which u, N values, equals isoval: a list of lists of (edge, [t]), rows of edges() and how far
+        along. A closed line ends with its first place.
+        """
+        with check.named("marching_triangles", field="u", values="isoval"):
+            lines = self._surface.isolines(u, isoval)
+        values = np.asarray(u, np.float64).reshape(-1)[self._edges] - isoval
+        crossed = np.flatnonzero((values[:, 0] >= 0) != (values[:, 1] >= 0))
+        if not crossed.size:
+            return []
+        t = values[crossed, 0] / (values[crossed, 0] - values[crossed, 1])
+        ends = self._surface.positions[self._edges[crossed]]
+        from scipy.spatial import cKDTree  # slow to import
+        tree = cKDTree(ends[:, 0] + t[:, None] * (ends[:, 1] - ends[:, 0]))
+        found = []
+        for line in lines:
+            _, nearest = tree.query(line.points)
+            places = [(int(crossed[k]), [float(t[k])]) for k in nearest]
+            found.append(places + places[:1] if line.closed else places)
+        return found
+
+
+def marching_triangles(V, F, u, isoval=0.0):
+    """The lines on which u, N values at V (N x 3), equals isoval, on the triangles F: as
+    MeshMarchingTrianglesSolver.marching_triangles().
+    """
+    return MeshMarchingTrianglesSolver(V, F).marching_triangles(u, isoval)
+
+
+class _MeshLines:
+    """Base of the classes below. t_coef is ignored, as it is in potpourri3d."""
+
+    def __init__(self, V, F, t_coef=1.0):
+        with check.named(type(self).__name__, points="V", faces="F"):
+            self._surface = Mesh(V, F)
+
+    @property
+    def surface(self):
+        """The Mesh that is solved on, with all other methods."""
+        return self._surface
+
+
+class EdgeFlipGeodesicSolver(_MeshLines):
+    """Straight paths and loops on a mesh, as potpourri3d.EdgeFlipGeodesicSolver.
+
+    V: N x 3. F: F x 3. t_coef: ignored.
+    """
+
+    def find_geodesic_path(self, v_start, v_end, max_iterations=None, max_relative_length_decrease=None):
+        """A shortest path between the vertices v_start and v_end: K x 3 points. max_iterations and
+        max_relative_length_decrease are ignored: paths are always straightened to the end.
+        """
+        with check.named("find_geodesic_path", start="v_start", end="v_end"):
+            return self._surface.path(v_start, v_end).points
+
+    def find_geodesic_path_poly(self, v_list, max_iterations=None, max_relative_length_decrease=None):
+        """The way through the vertices v_list, straightened: K x 3 points from the first to the last. max_iterations and
+        max_relative_length_decrease are ignored.
+        """
+        with check.named("find_geodesic_path_poly", points="v_list"):
+            return self._surface.path_through(v_list).points
+
+    def find_geodesic_loop(self, v_list, max_iterations=None, max_relative_length_decrease=None):
+        """The closed way through the vertices v_list, straightened: K x 3 points, the first one not repeated; a single
+        one where the loop contracts. max_iterations and max_relative_length_decrease are ignored.
+        """
+        with check.named("find_geodesic_loop", points="v_list"):
+            return self._surface.path_through(v_list, closed=True).points
+
+
+class GeodesicTracer(_MeshLines):
+    """Straight lines on a mesh, as potpourri3d.GeodesicTracer.
+
+    V: N x 3. F: F x 3. t_coef: ignored.
+    """
+
+    def trace_geodesic_from_vertex(self, start_vert, direction_xyz, max_iterations=None):
+        """Follows a straight line from vertex start_vert along direction_xyz, 3 values projected into the tangent plane
+        of the vertex, as far as this projection is long: K x 3 points. max_iterations: most edges that are crossed.
+        """
+        where = check.indices("trace_geodesic_from_vertex", "start_vert", start_vert, len(self._surface))
+        normal = self._surface.frames[where[0], 2]
+        return self._traced("trace_geodesic_from_vertex", where, direction_xyz, normal, max_iterations)
+
+    def trace_geodesic_from_face(self, start_face, bary_coords, direction_xyz, max_iterations=None):
+        """The same from a place in face start_face, bary_coords: 3 barycentric coordinates. direction_xyz is projected
+        into the plane of the face. max_iterations: most edges that are crossed.
+        """
+        name, faces = "trace_geodesic_from_face", self._surface.faces
+        where = check.indices(name, "start_face", start_face, len(faces))
+        a, b, c = self._surface.positions[faces[where[0]]]
+        return self._traced(name, where, direction_xyz, np.cross(b - a, c - a), max_iterations, bary_coords)
+
+    def _traced(self, function, where, direction, normal, most, barycentric=None):
+        direction = check.vector_of_three(function, "direction_xyz", direction)
+        size = np.linalg.norm(normal)
+        normal = normal / size if size > 0 else normal
+        length = np.linalg.norm(direction - (direction @ normal) * normal)
+        with check.named(function, direction="direction_xyz", barycentric="bary_coords"):
+            points = self._surface.trace(where, direction, length, barycentric=barycentric).points
+        return points if most is None else points[:check.whole(function, "max_iterations", most, 0) + 1]
+
+
+class PointCloudLocalTriangulation:
+    """The triangles around each point of a cloud, as potpourri3d.PointCloudLocalTriangulation.
+
+    P: N x 3. with_degeneracy_heuristic: ignored. options: those of PointCloud.
+    """
+
+    def __init__(self, P, with_degeneracy_heuristic=True, **options):
+        with check.named("PointCloudLocalTriangulation", points="P"):
+            self._surface = PointCloud(P, **options)
+
+    def get_local_triangulation(self):
+        """The triangles with each point as a corner, of the union of all stars after flips: N x K x 3 indices, the
+        point itself first, counterclockwise as seen from its normal; rows of -1 fill the rest.
+        """
+        faces = np.unique(np.sort(_tufted.cover_faces(self._surface._laplacian), axis=1), axis=0)
+        faces = faces[(faces[:, 0] < faces[:, 1]) & (faces[:, 1] < faces[:, 2])]
+        around = np.concatenate([np.roll(faces, -k, axis=1) for k in range(3)])
+        around = around[np.argsort(around[:, 0], kind="stable")]
+        positions, normals = self._surface.positions, self._surface.frames[:, 2]
+        a, b, c = (positions[around[:, k]] for k in range(3))
+        back = np.einsum("ij,ij->i", np.cross(b - a, c - a), normals[around[:, 0]]) < 0
+        around[back] = around[back][:, [0, 2, 1]]
+        counts = np.bincount(around[:, 0], minlength=len(positions))
+        result = np.full((len(positions), counts.max(initial=0), 3), -1, np.int32)
+        result[around[:, 0], np.arange(len(around)) - (np.cumsum(counts) - counts)[around[:, 0]]] = around
+        return result
