@@ -38,7 +38,8 @@ struct StarSupport {
   RawBuffer<double> fit_radius;  ///< n, S(p): distance to the last neighbour of the plane
   /// n, 1 for points without a star: outliers, and points whose neighbours lie on other sheets
   RawBuffer<std::uint8_t> isolated;
-  PointBuffer normals;  ///< n x 3
+  RawBuffer<std::uint8_t> thick;  ///< n, 1 for thick neighbourhoods; 0 values for a depth image
+  PointBuffer normals;            ///< n x 3
 
   std::size_t bytes() const;
 };

@@ -55,14 +55,14 @@ tufted::Selection selectionOf(const ChosenPoints& chosen) {
   return selection;
 }
 
-void choose(tufted::Geometry& geometry, Input& input) {
+void choose(tufted::Geometry& geometry, Input& input, const tufted::Progress& progress) {
   const tufted::Selection selection = selectionOf(input.chosen);
   if (selection.isEmpty()) return tufted::removeFileRow(geometry);
   if (geometry.is_mesh)
     throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to point clouds, and " + input.name() +
                                " holds a mesh (--as cloud takes its vertices alone)");
   input.chosen.of = geometry.points.rows();
-  std::vector<int> rows = tufted::select(geometry, selection);
+  std::vector<int> rows = tufted::select(geometry, selection, progress);
   input.chosen.kept = std::ssize(rows);
   if (geometry.height <= 1) input.chosen.rows = std::move(rows);
 }
@@ -159,7 +159,7 @@ tufted::Geometry readInput(Input& input, const tufted::Progress& progress) {
   if (input.weld && !geometry.is_mesh)
     throw tufted::InvalidInput("--weld applies to meshes, and " + input.name() +
                                " holds a point cloud, whose coincident points are merged in any case");
-  choose(geometry, input);
+  choose(geometry, input, progress);
   return geometry;
 }
 
