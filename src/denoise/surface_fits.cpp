@@ -112,7 +112,7 @@ SurfaceFits fitSurfaces(const PointsView& points, const NeighborSearch& search, 
   fits.centers = std::move(centers);
   const Buffer<int>& ranks = fits.centers.rank;
   fits.surface.resize(ranks.size());
-  workers.forBlocks("noise", fits.count(), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("surface fits", fits.count(), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     SurfaceFitter fitter(points);
     LocalSurface* surface = &fits.surface[begin];
     forEachListed(points, search, std::span(ranks).subspan(begin, end - begin), fit_sizes.back(),
@@ -122,7 +122,7 @@ SurfaceFits fitSurfaces(const PointsView& points, const NeighborSearch& search, 
   const NeighborSearch among_centers(places, workers);
   fits.pool_size = std::min(SurfaceFits::most_pooled, fits.count());
   fits.pool.resize(static_cast<std::size_t>(fits.count()) * fits.pool_size);
-  workers.forBlocks("noise", fits.count(), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("pools", fits.count(), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     BatchScratch scratch;
     Buffer<Neighbor> found;
     nearestOfEach(among_centers, places, static_cast<int>(begin), static_cast<int>(end - begin), fits.pool_size - 1,

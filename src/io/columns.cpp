@@ -70,10 +70,6 @@ std::size_t sizeOf(FieldType type) {
   return visitType(type, [](auto zero) { return sizeof(zero); });
 }
 
-bool isPackedColor(const Field& field) {
-  return (field.name == "rgb" || field.name == "rgba") && field.count == 1 && sizeOf(field.type) == 4;
-}
-
 bool isInteger(FieldType type) {
   return visitType(type, [](auto zero) { return std::is_integral_v<decltype(zero)>; });
 }
@@ -138,4 +134,8 @@ std::int64_t checkedRows(const std::filesystem::path& path, std::int64_t rows) {
 
 double tufted::valueOf(const Field& field, std::size_t i) {
   return io::valueOf(field.type, field.bytes.data() + i * io::sizeOf(field.type));
+}
+
+bool tufted::isPackedColor(const Field& field) {
+  return (field.name == "rgb" || field.name == "rgba") && field.count == 1 && io::sizeOf(field.type) == 4;
 }

@@ -41,8 +41,6 @@ decltype(auto) visitType(FieldType type, Visitor&& visit) {
 
 std::size_t sizeOf(FieldType type);
 
-/// Whether a field is a colour that PCL packed as 0xAARRGGBB into four bytes.
-bool isPackedColor(const Field& field);
 bool isInteger(FieldType type);
 /// The value at `bytes`, in native byte order. 64-bit integers beyond 2^53 are rounded.
 double valueOf(FieldType type, const std::byte* bytes);

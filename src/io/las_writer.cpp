@@ -262,4 +262,8 @@ void writeLas(const OutputPath& to, const Laplacian& laplacian, const Geometry& 
   LasWriter(table, geometry).write(to);
 }
 
+void checkLas(const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M) {
+  LasWriter(pointTable(laplacian, geometry, M, {"nx", "ny", "nz"}, addLasField), geometry);
+}
+
 }  // namespace tufted::io

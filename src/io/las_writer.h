@@ -11,4 +11,7 @@ namespace tufted::io {
 /// @throws IoError
 void writeLas(const OutputPath& to, const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M);
 
+/// @throws InvalidInput as writeLas(), which writes nothing then either
+void checkLas(const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M);
+
 }  // namespace tufted::io

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "io/columns.h"
 #include "io/conventions.h"
 #include "io/las_writer.h"
 #include "io/line_files.h"
@@ -166,6 +167,29 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
   }
   io::stageResults(files, laplacian, geometry, arrays, options);
   files.commit();
+}
+
+void checkLas(const Geometry& geometry, const std::vector<ResultArray>& arrays) {
+  const Eigen::Index rows = std::min<Eigen::Index>(1, geometry.points.rows());
+  Geometry first;
+  first.points = geometry.points.topRows(rows);
+  if (geometry.normals.rows() > 0) first.normals = geometry.normals.topRows(rows);
+  first.las_header = geometry.las_header;
+  for (const Field& field : geometry.fields) {
+    const auto end = field.bytes.begin() + rows * field.count * static_cast<std::ptrdiff_t>(io::sizeOf(field.type));
+    first.fields.push_back({field.name, field.type, field.count, {field.bytes.begin(), end}});
+  }
+  std::vector<ResultArray> of_first;
+  for (const ResultArray& array : arrays)
+    of_first.push_back({array.name, Eigen::MatrixXd::Zero(rows, array.values.cols())});
+  const auto size = static_cast<std::size_t>(rows);
+  Laplacian laplacian;
+  laplacian.M = VectorXd::Zero(rows);
+  laplacian.status.resize(size);
+  laplacian.boundary.resize(size);
+  laplacian.representative.resize(size);
+  laplacian.frames.normals = Points::Zero(rows, 3);
+  io::checkLas(laplacian, copyWith(first, of_first), laplacian.M);
 }
 
 }  // namespace tufted

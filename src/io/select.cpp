@@ -7,6 +7,7 @@
 
 #include "io/columns.h"
 #include "io/number.h"
+#include "io/steps.h"
 #include "io/where.h"
 #include "tufted/errors.h"
 
@@ -32,9 +33,11 @@ void check(const Geometry& geometry, const Selection& selection) {
 
 /// Clears the entries of points that do not satisfy the condition.
 template <class Condition>
-void require(Mask& kept, const Condition& condition) {
-  for (std::size_t i = 0; i < kept.size(); ++i)
+void require(Mask& kept, const Progress& progress, const Condition& condition) {
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    io::reportStep(progress, "select", i, kept.size());
     if (kept[i] != 0 && !condition(i)) kept[i] = 0;
+  }
 }
 
 /// Whether a point lies in a polygon, by the rule of Selection::polygon.
@@ -52,18 +55,19 @@ bool isInside(const std::vector<Eigen::Vector2d>& corners, const Eigen::RowVecto
   return is_inside;
 }
 
-std::vector<int> rowsOf(const Geometry& geometry, const Selection& selection) {
+std::vector<int> rowsOf(const Geometry& geometry, const Selection& selection, const Progress& progress) {
   const Points& points = geometry.points;
   Mask kept(static_cast<std::size_t>(points.rows()), 1);
-  for (const std::string& comparison : selection.where) require(kept, io::where(geometry, comparison));
-  if (selection.crop) require(kept, [&](std::size_t i) { return selection.crop->contains(points.row(i).transpose()); });
+  for (const std::string& comparison : selection.where) require(kept, progress, io::where(geometry, comparison));
+  if (selection.crop)
+    require(kept, progress, [&](std::size_t i) { return selection.crop->contains(points.row(i).transpose()); });
   if (!selection.polygon.empty())
-    require(kept, [&](std::size_t i) { return isInside(selection.polygon, points.row(i)); });
+    require(kept, progress, [&](std::size_t i) { return isInside(selection.polygon, points.row(i)); });
   std::vector<int> rows;
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (kept[i] != 0) rows.push_back(static_cast<int>(i));
   if (selection.thin == 0) return rows;
-  std::vector<int> thinned = thinPoints(points(rows, Eigen::all), selection.thin);
+  std::vector<int> thinned = thinPoints(points(rows, Eigen::all), selection.thin, progress);
   for (int& row : thinned) row = rows[static_cast<std::size_t>(row)];
   return thinned;
 }
@@ -100,9 +104,9 @@ void removeFileRow(Geometry& geometry) {
   std::erase_if(geometry.fields, [](const Field& field) { return field.name == file_row; });
 }
 
-std::vector<int> select(Geometry& geometry, const Selection& selection) {
+std::vector<int> select(Geometry& geometry, const Selection& selection, const Progress& progress) {
   check(geometry, selection);
-  std::vector<int> rows = rowsOf(geometry, selection);
+  std::vector<int> rows = rowsOf(geometry, selection, progress);
   if (rows.empty() && geometry.points.rows() > 0)
     throw InvalidInput("select: none of the " + std::to_string(geometry.points.rows()) +
                        " points satisfies all conditions, must be at least one");

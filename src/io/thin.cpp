@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/number.h"
+#include "io/steps.h"
 #include "tufted/errors.h"
 #include "tufted/io/select.h"
 
@@ -84,7 +85,7 @@ class Chosen {
 
 }  // namespace
 
-std::vector<int> thinPoints(const Points& points, double spacing) {
+std::vector<int> thinPoints(const Points& points, double spacing, const Progress& progress) {
   if (!(spacing >= 1e-150 && spacing <= 1e150))  // squares neither overflow nor underflow
     throw InvalidInput("thinPoints: spacing = " + io::shortestText(spacing) + ", must be in [1e-150, 1e150]");
   const auto at = [&](int i) { return Triple{points(i, 0), points(i, 1), points(i, 2)}; };
@@ -94,6 +95,7 @@ std::vector<int> thinPoints(const Points& points, double spacing) {
   std::vector<Visit> visits;
   visits.reserve(static_cast<std::size_t>(points.rows()));
   for (int i = 0; i < points.rows(); ++i) {
+    io::reportStep(progress, "sort points", static_cast<std::size_t>(i), visits.capacity());
     if (!points.row(i).allFinite()) continue;
     Triple block = at(i);
     for (double& number : block) number = std::floor(number / block_width);
@@ -102,8 +104,10 @@ std::vector<int> thinPoints(const Points& points, double spacing) {
   std::sort(visits.begin(), visits.end());
   Chosen chosen(spacing, visits.size());
   std::vector<int> rows;
-  for (const Visit& visit : visits)
-    if (chosen.visit(at(visit.point))) rows.push_back(visit.point);
+  for (std::size_t v = 0; v < visits.size(); ++v) {
+    io::reportStep(progress, "thin", v, visits.size());
+    if (chosen.visit(at(visits[v].point))) rows.push_back(visits[v].point);
+  }
   std::sort(rows.begin(), rows.end());
   return rows;
 }

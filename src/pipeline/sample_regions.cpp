@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
+#include "base/scaling.h"
 #include "tufted/describe.h"
 #include "tufted/errors.h"
 
@@ -20,9 +22,14 @@ constexpr int least_sample = 1000;  ///< balls of 125 points have more than one 
 /// A ball of the sample, and its points.
 struct Region {
   Eigen::RowVector3d center;
+  PowerOfTwo scale;  ///< of distances, so that their squares do not underflow, and overflow only at outliers
   double squared_radius = 0;
   std::vector<std::pair<double, int>> inside;  ///< squared distances and indices
 
+  double squaredDistance(const Eigen::RowVector3d& point) const {
+    const Eigen::RowVector3d way = point - center;
+    return Eigen::RowVector3d(scale.times(way[0]), scale.times(way[1]), scale.times(way[2])).squaredNorm();
+  }
   void keepNearest(std::size_t count) {
     if (inside.size() <= count) return;
     std::nth_element(inside.begin(), inside.begin() + static_cast<std::ptrdiff_t>(count), inside.end());
@@ -43,7 +50,7 @@ void chooseRadius(const Points& points, const std::vector<int>& some, Eigen::Ind
                   Region& ball) {
   std::vector<double> squared;
   squared.reserve(some.size());
-  for (const int i : some) squared.push_back((points.row(i) - ball.center).squaredNorm());
+  for (const int i : some) squared.push_back(ball.squaredDistance(points.row(i)));
   // At least 8 points and half as many again, against the chance in counting few.
   const auto place = std::max<std::size_t>(8, 3 * share / (2 * static_cast<std::size_t>(stride)));
   ball.squared_radius = std::numeric_limits<double>::infinity();
@@ -68,14 +75,16 @@ std::vector<int> sampleRegions(const Points& points, int most) {
   const std::vector<int> some = everyNth(points, stride);
   if (some.empty()) return sample;
   const std::size_t share = static_cast<std::size_t>(most) / ball_count;
-  Region balls[ball_count];
+  std::vector<PointStatus> status;
+  const PowerOfTwo scale = measureScaling(Points(points(some, Eigen::all)), status, Workers(1, {})).toScaled();
+  std::vector<Region> balls;
   for (std::size_t b = 0; b < ball_count; ++b) {
-    balls[b].center = points.row(some[(2 * b + 1) * some.size() / (2 * ball_count)]);
-    chooseRadius(points, some, stride, share, balls[b]);
+    balls.push_back({points.row(some[(2 * b + 1) * some.size() / (2 * ball_count)]), scale});
+    chooseRadius(points, some, stride, share, balls.back());
   }
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     for (Region& ball : balls) {
-      const double squared = (points.row(i) - ball.center).squaredNorm();
+      const double squared = ball.squaredDistance(points.row(i));
       if (!(squared <= ball.squared_radius) || std::isinf(squared)) continue;
       ball.inside.emplace_back(squared, static_cast<int>(i));
       // Bounds the memory if most points lie at few places.

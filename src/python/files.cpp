@@ -62,7 +62,7 @@ Geometry readFile(const std::filesystem::path& path, const std::string& kind, bo
   if (selection.isEmpty())
     removeFileRow(geometry);
   else
-    run(progress, [&](const Progress&) { return select(geometry, selection); });
+    run(progress, [&](const Progress& called) { return select(geometry, selection, called); });
   const int caller = 2;  // stack level: the line that called the package's function
   for (const std::string& note : geometry.notes)
     if (PyErr_WarnEx(PyExc_UserWarning, note.c_str(), caller) != 0) throw py::error_already_set();
@@ -193,7 +193,7 @@ void addFiles(py::module_& module) {
              py::arg("selection") = Selection());
   module.def("thin", [](const Doubles& points, double spacing) {
     const auto given = pointsOf(points);
-    return owned(run(py::none(), [&](const Progress&) { return thinPoints(given, spacing); }));
+    return owned(run(py::none(), [&](const Progress& called) { return thinPoints(given, spacing, called); }));
   });
   module.def("rings_of", &ringsOf);
   module.def("save", &saveTo);

@@ -121,6 +121,37 @@ TEST_F(ChosenPoints, PointsAreNamedByTheirIndexInTheFile) {
                 "line 1 is a point");
 }
 
+TEST_F(ChosenPoints, MessagesNamePointsByTheirRowsInTheFile) {
+  const std::vector<std::string> choice = {"--where", "classification=2"};
+  const auto with = [&](std::vector<std::string> command) {
+    command.insert(command.end(), choice.begin(), choice.end());
+    return command;
+  };
+  expectRefusal(with({"segment", all_, "--seeds", "4,4"}), "--seeds 4,4: segments: seed 4 is given twice");
+  std::string values = "//X Y Z Classification f\n", line;
+  std::istringstream lines(sheet({2, 5}));
+  std::getline(lines, line);
+  for (int i = 0; std::getline(lines, line); ++i) values += line + (i == 4 ? " nan\n" : " 1\n");
+  const std::string odd = dir_.write("odd.xyz", values);
+  expectRefusal(with({"poisson", odd, "--field", "f"}), "the values of point 4 are not finite", 1);
+  const std::string far = dir_.write("far.xyz", sheet({2, 5}) + "1000 1000 1000 2\n");
+  expectRefusal(with({"path", far, "--from", "4", "--to", "400"}), "point 400 is isolated");
+  const Result result = runTufted(with({"distance", far, "--source", "4,400", "--out", in("far")}));
+  EXPECT_NE(result.err.find("point 400 is isolated"), std::string::npos) << result.err;
+}
+
+TEST_F(ChosenPoints, AreFoundUntilCtrlC) {
+  const std::string file = dir_.write("sphere.xyz", sphere(200000));
+  for (const std::vector<std::string>& choice : {std::vector<std::string>{"--where", "x>-2"}, {"--thin", "1e-9"}}) {
+    std::vector<std::string> command = {"laplacian", file, "--out", in("stopped")};
+    command.insert(command.end(), choice.begin(), choice.end());
+    const Result result = interruptTufted(command, SIGINT, choice[0] == "--thin" ? "thin" : "select");
+    EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_EQ(result.err.find("stars"), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(in("stopped")));
+  }
+}
+
 TEST_F(ChosenPoints, MistakesAreRefusedBeforeTheBuild) {
   const auto refuses = [&](const std::vector<std::string>& choice, const std::string& word, int code = 2) {
     std::vector<std::string> command = {"laplacian", all_};

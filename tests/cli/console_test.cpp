@@ -189,10 +189,39 @@ TEST_F(ConsoleOutput, FormatsAreListsInAllSubcommands) {
   }
 }
 
+/// The percentages that a progress bar showed, and the stage of the last.
+std::pair<std::vector<int>, std::string> percentagesIn(const std::string& shown) {
+  std::pair<std::vector<int>, std::string> found;
+  for (std::size_t at = shown.find(" % "); at != std::string::npos; at = shown.find(" % ", at + 1)) {
+    found.first.push_back(std::stoi(shown.substr(at - 3, 3)));
+    found.second = shown.substr(at + 3, shown.find_first_of(",\033", at) - at - 3);
+  }
+  return found;
+}
+
+TEST_F(ConsoleOutput, OneBarShowsTheShareOfTheWholeCommand) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(3000)), mesh = dir_.write("mesh.off", tetrahedron);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"laplacian", cloud},
+                                                {"spectrum", cloud, "--count", "5"},
+                                                {"distance", cloud, "--source", "0"},
+                                                {"distance", cloud, "--source", "0", "--method", "heat"},
+                                                {"green", cloud, "--source", "0"},
+                                                {"distance", mesh, "--source", "0"}}) {
+    std::vector<std::string> command = words;
+    command.insert(command.end(), {"--out", in("out"), "--threads", "1"});
+    const auto [percentages, last] = percentagesIn(watchTufted(command).err);
+    ASSERT_GT(percentages.size(), 10u) << words[0];
+    // The first ones are of reading alone.
+    EXPECT_TRUE(std::is_sorted(percentages.begin(), percentages.end())) << words[0];
+    EXPECT_GE(percentages.back(), 94) << words[0];
+    EXPECT_EQ(last, "write") << words[0];
+  }
+}
+
 TEST_F(ConsoleOutput, OnATerminalProgressShowsStagesAndTheirPaceAndQuietShowsNone) {
   const std::string file = dir_.write("sphere.xyz", sphere(300000));
   const std::string shown = watchTufted({"laplacian", file, "--out", in("out"), "--threads", "1"}).err;
-  for (const char* part : {"read", "points/s", "%"}) EXPECT_TRUE(contains(shown, part)) << part;
+  for (const char* part : {"read", "stars", "%"}) EXPECT_TRUE(contains(shown, part)) << part;
   EXPECT_TRUE(shown.ends_with("\033[K")) << "the bar is left behind";
   EXPECT_EQ(watchTufted({"laplacian", file, "--out", in("out"), "-q"}).err, "");
 }

@@ -64,5 +64,30 @@ TEST_F(OperatorFolder, GivesEveryCommandTheBitsOfTheFile) {
   }
 }
 
+TEST_F(OperatorFolder, NeedsACoverOnlyForWhatFollowsItsFaces) {
+  run({"laplacian", dir_.write("mesh.off", tetrahedron), "--out", in("mesh")});
+  run({"laplacian", dir_.write("cloud.xyz", sphere(500)), "--out", in("cloud")});
+  const std::vector<std::string> trace = {"trace", "--source", "0", "--direction", "1,1,0", "--length", "0.5"};
+  const std::vector<std::string> lines = {"isolines", "--field", "x", "--count", "2"},
+                                 keep = {"smooth", "--keep-volume"};
+  const auto of = [&](const std::string& folder, std::vector<std::string> words) {
+    words.insert(words.end(), {"--operator", in(folder)});
+    return words;
+  };
+  for (const std::vector<std::string>& words : {trace, lines, keep}) {
+    std::vector<std::string> command = of("mesh", words);
+    command.insert(command.end(), {"--out", in(words[0])});
+    run(command);
+    expectRefusal(of("cloud", words), "has no cover.npz", 1);
+  }
+  for (const std::string method : {"spectral", "parts"})
+    run({"segment", "--method", method, "--operator", in("cloud"), "--out", in(method)});
+  for (const std::string folder : {"mesh", "cloud"}) {
+    expectRefusal(of(folder, {"segment", "--count", "2"}), "has no cover.npz", 1);
+    expectRefusal(of(folder, {"segment", "--method", "voronoi"}), "has no cover.npz", 1);
+    expectRefusal(of(folder, {"distance", "--source", "0"}), "has no cover.npz", 1);
+  }
+}
+
 }  // namespace
 }  // namespace operator_folder_test

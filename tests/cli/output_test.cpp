@@ -243,5 +243,21 @@ TEST_F(OutputOfCommands, IsStillThereAfterTheProcessIsKilled) {
   }
 }
 
+TEST_F(OutputOfCommands, ThatLasCannotHoldIsRefusedBeforeTheBuild) {
+  const std::string file = dir_.write("sphere.xyz", sphere(400));
+  std::string all = "0";
+  for (int i = 1; i < 345; ++i) all += "," + std::to_string(i);
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"spectrum", "--count", "350"},
+                                                {"spectrum", "--count", "350", "--with-null-space"},
+                                                {"distance", "--matrix", "--source", all}}) {
+    std::vector<std::string> command = {words[0], file, "--format", "las", "--out", in("out")};
+    command.insert(command.end(), words.begin() + 1, words.end());
+    const Result result = watchTufted(command);
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_NE(result.err.find("values per point are more than LAS can hold, 341"), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("stars"), std::string::npos) << result.err;
+  }
+}
+
 }  // namespace
 }  // namespace output_test

@@ -136,16 +136,17 @@ TEST_F(SignalCommands, FilterMovesThePositions) {
 }
 
 TEST_F(SignalCommands, ColoursOfPcdAreUnpacked) {
-  std::istringstream lines(sphere(200));
-  std::string pcd =
-      "VERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 200\nHEIGHT 1\n"
-      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 200\nDATA ascii\n";
-  for (std::string line; std::getline(lines, line);) pcd += line + ' ' + std::to_string(0xff0a141e) + '\n';
-  run({"filter", dir_.write("red.pcd", pcd), "--field", "rgb", "--count", "3", "--out", in("out")});
-  const std::vector<double> colors = values("out/filtered.npy");
-  ASSERT_EQ(colors.size(), 600u);
-  for (int i = 0; i < 200; ++i)
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(colors[3 * i + c], 10 * (c + 1), 1e-9);
+  for (const std::string type : {"U", "I"}) {  // some programs store the four bytes as a signed number
+    std::istringstream lines(sphere(200));
+    std::string pcd = "VERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F " + type +
+                      "\nCOUNT 1 1 1 1\nWIDTH 200\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 200\nDATA ascii\n";
+    for (std::string line; std::getline(lines, line);) pcd += line + ' ' + std::to_string(0x0a141e) + '\n';
+    run({"filter", dir_.write("red.pcd", pcd), "--field", "rgb", "--count", "3", "--out", in("out")});
+    const std::vector<double> colors = values("out/filtered.npy");
+    ASSERT_EQ(colors.size(), 600u) << type;
+    for (int i = 0; i < 200; ++i)
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(colors[3 * i + c], 10 * (c + 1), 1e-9) << type;
+  }
 }
 
 TEST_F(SignalCommands, EmbedGivesCoordinatesWithoutConstants) {

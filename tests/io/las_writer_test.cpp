@@ -209,6 +209,32 @@ TEST_F(LasOutput, WhatLasCannotHoldIsRefused) {
   EXPECT_NE(refusal(moved).find("out of the range"), std::string::npos) << refusal(moved);
 }
 
+TEST_F(LasOutput, RoomForResultsIsCheckedWithoutThem) {
+  tufted::Geometry geometry;
+  geometry.points = tufted::Points::Zero(2, 3);
+  geometry.fields = {{"Intensity of it", tufted::FieldType::float32, 1, std::vector<std::byte>(8)}};
+  tufted::Laplacian laplacian;  // it takes seven values: mass, boundary, status, representative and a normal
+  laplacian.status.resize(2);
+  laplacian.representative = {0, 1};
+  laplacian.boundary.resize(2);
+  laplacian.M = tufted::VectorXd::Zero(2);
+  laplacian.frames.normals = tufted::Points::Zero(2, 3);
+  for (const int columns : {333, 334}) {  // with the others 341 and 342
+    const std::vector<tufted::ResultArray> arrays = {{"values", Eigen::MatrixXd::Zero(2, columns)}};
+    const auto write = [&] {
+      tufted::writeResults(dir_.path(), laplacian, geometry, arrays, {.copies = {Format::las}});
+    };
+    if (columns == 333) {
+      EXPECT_NO_THROW(write());
+      EXPECT_NO_THROW(tufted::checkLas(geometry, arrays));
+    } else {
+      EXPECT_THROW(write(), tufted::InvalidInput);
+      EXPECT_THROW(tufted::checkLas(geometry, arrays), tufted::InvalidInput);
+    }
+  }
+  EXPECT_NO_THROW(tufted::checkLas(tufted::Geometry()));
+}
+
 TEST_F(LasOutput, LongNamesAreCutAndNoPointsAreFine) {
   const std::string name(40, 'n');
   EXPECT_NE(fieldNamed(parse(written(twoPoints(), {{name, Eigen::Vector2d::Zero()}})), name.substr(0, 32)), nullptr);

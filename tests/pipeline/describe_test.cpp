@@ -129,8 +129,8 @@ TEST(SampleRegions, HaveTheSpacingOfTheWhole) {
 
 TEST(SampleRegions, MoveWithThePoints) {
   const Points points = square(20000);
-  const Points moved = 0x1p20 * points;
-  EXPECT_EQ(sampleRegions(moved, 2000), sampleRegions(points, 2000));
+  for (const double scale : {0x1p20, 0x1p-560, 0x1p500})  // also where squares of distances do not fit a double
+    EXPECT_EQ(sampleRegions(scale * points, 2000), sampleRegions(points, 2000)) << scale;
 }
 
 TEST(SampleRegions, OfOddCloudsAreSmall) {

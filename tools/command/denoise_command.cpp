@@ -73,15 +73,13 @@ int runDenoise(Settings& settings) {
   tufted::Geometry geometry = readInput(settings.input, progress);
   if (geometry.is_mesh) throw tufted::IoError(settings.input.name() + ": is a mesh; --as cloud takes its points alone");
   checkField(settings.look, geometry, {{"noise"}}, false);
-  requirePointsOfLas(geometry, settings.copies, settings.input.name());
+  requireLas(geometry, settings.copies, settings.input.name(), {});
   if (interrupted()) throw tufted::Cancelled("cancelled");
-  bar.setPoints(geometry.points.rows());
   const std::string doubt = doubtOf(geometry, settings.structure);
   if (settings.structure == Structure::automatic) settings.structure = structureFor(geometry);
   const auto scan = structureOf(geometry, settings.structure, settings.input.name());
   const tufted::DenoisedPoints denoised = tufted::denoise(
       geometry.points, {.structure = scan ? &*scan : nullptr, .threads = settings.threads, .progress = progress});
-  bar.setPoints(0);
   geometry.points = denoised.positions;
   geometry.normals.resize(0, 3);  // those of the file belong to the old positions
 

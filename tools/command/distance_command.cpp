@@ -92,6 +92,10 @@ void check(Settings& settings, const Operator& source) {
   settings.inside = pointsInFaces(settings.faces, source);
   if (settings.places.empty() && settings.inside.empty())
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");
+  settings.source.stages = {{"faces", 26, 2}, {"edges", 3}, {"march", 18}};
+  if (settings.options.method == tufted::DistanceMethod::heat)
+    settings.source.stages = {{"faces", 26},  {"analyse", 15}, {"factor", 33}, {"analyse", 15},
+                              {"factor", 33}, {"analyse", 15}, {"factor", 33}, {"solve", 6, 3}};
   if (settings.matrix)
     settings.source.shown = {{"distance", std::ssize(settings.places) + std::ssize(settings.inside)}};
 }
@@ -214,7 +218,7 @@ void addDistance(CLI::App& app, Run& run) {
   using namespace distance_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "distance", description, footer, compute, check);
-  settings->source.needs_cover = true;
+  settings->source.cover = CoverUse::all;
   addPointOptions(*command, settings->points, "Sources");
   addFaceOption(*command, settings->faces, "Source");
   addChoice(*command, "--method", settings->options.method, methods,

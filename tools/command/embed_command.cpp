@@ -45,6 +45,7 @@ struct Settings {
 
 void check(Settings& settings, const Operator& source) {
   checkPairs(settings.pairs, source);
+  settings.source.stages = spectralStages(settings.pairs.count);
   settings.source.shown = {{"embedding", settings.pairs.count}};
 }
 

@@ -66,6 +66,7 @@ void check(Settings& settings, const Operator& source) {
     settings.source.shown = {{moved_points_field}};
   }
   if (!settings.wavelength || !settings.pairs.folder.empty()) checkPairs(settings.pairs, source);
+  settings.source.stages = spectralStages(settings.pairs.count);
 }
 
 double waveOf(double eigenvalue) {

@@ -72,6 +72,7 @@ std::string isTime(const std::string& text) {
 
 void check(Settings& settings, const Operator& source) {
   checkPairs(settings.pairs, source);
+  settings.source.stages = spectralStages(settings.pairs.count);
   const auto times = settings.times.empty() ? settings.samplesOrDefault() : static_cast<int>(settings.times.size());
   settings.source.shown = {{settings.wave ? "wks" : "hks", times}};
 }

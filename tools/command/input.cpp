@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <regex>
 #include <system_error>
 
 #include "options.h"
@@ -55,14 +56,14 @@ tufted::Selection selectionOf(const ChosenPoints& chosen) {
   return selection;
 }
 
-void choose(tufted::Geometry& geometry, Input& input) {
+void choose(tufted::Geometry& geometry, Input& input, const tufted::Progress& progress) {
   const tufted::Selection selection = selectionOf(input.chosen);
   if (selection.isEmpty()) return tufted::removeFileRow(geometry);
   if (geometry.is_mesh)
     throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to point clouds, and " + input.name() +
                                " holds a mesh (--as cloud takes its vertices alone)");
   input.chosen.of = geometry.points.rows();
-  std::vector<int> rows = tufted::select(geometry, selection);
+  std::vector<int> rows = tufted::select(geometry, selection, progress);
   input.chosen.kept = std::ssize(rows);
   if (geometry.height <= 1) input.chosen.rows = std::move(rows);
 }
@@ -73,6 +74,18 @@ int ChosenPoints::rowOf(int number) const {
   if (rows.empty()) return number;
   const auto row = std::lower_bound(rows.begin(), rows.end(), number);
   return row == rows.end() || *row != number ? -1 : static_cast<int>(row - rows.begin());
+}
+
+std::string ChosenPoints::inFile(const std::string& message) const {
+  static const std::regex named("(^|[^-\\w])(point|seed|source) (\\d{1,9})(?![.\\w])");  // not the option --source 5
+  std::string text;
+  auto done = message.begin();
+  for (std::sregex_iterator at(message.begin(), message.end(), named), end; !rows.empty() && at != end; ++at) {
+    const auto row = std::stoul((*at)[3].str());
+    text.append(done, (*at)[3].first) += std::to_string(row < rows.size() ? rows[row] : static_cast<int>(row));
+    done = (*at)[3].second;
+  }
+  return text.append(done, message.end());
 }
 
 nlohmann::ordered_json ChosenPoints::json() const {
@@ -159,7 +172,7 @@ tufted::Geometry readInput(Input& input, const tufted::Progress& progress) {
   if (input.weld && !geometry.is_mesh)
     throw tufted::InvalidInput("--weld applies to meshes, and " + input.name() +
                                " holds a point cloud, whose coincident points are merged in any case");
-  choose(geometry, input);
+  choose(geometry, input, progress);
   return geometry;
 }
 

@@ -29,6 +29,8 @@ struct ChosenPoints {
   int numberOf(int point) const { return rows.empty() ? point : rows[static_cast<std::size_t>(point)]; }
   /// The row in the results of a point, -1 if it was not chosen. @param number its row in the file
   int rowOf(int number) const;
+  /// A message in which points have their rows in the results, with those in the file instead.
+  std::string inFile(const std::string& message) const;
   /// The conditions and counts, for report.json.
   nlohmann::ordered_json json() const;
 };

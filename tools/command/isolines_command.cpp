@@ -120,7 +120,7 @@ void addIsolines(CLI::App& app, Run& run) {
   using namespace isolines_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "isolines", description, footer, compute, check);
-  settings->source.needs_cover = true;
+  settings->source.cover = CoverUse::clouds;
   addSignalOptions(*command, settings->signals, "Field, one value per point");
   CLI::Option* const at =
       command->add_option("--at", settings->at, "Values of the lines")->check(notEmpty)->type_name("V,...");

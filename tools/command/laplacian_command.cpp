@@ -205,16 +205,15 @@ int runLaplacian(Settings& settings) {
   refuseTooMany(settings.input);
   tufted::Geometry geometry = readInput(settings.input, progress);
   checkField(settings.look, geometry, laplacian_fields);
-  requirePointsOfLas(geometry, settings.write.formats, settings.input.name());
+  requireLas(geometry, settings.write.formats, settings.input.name(), {});
   if (interrupted()) throw tufted::Cancelled("cancelled");
   tufted::WriteOptions& write = settings.write;
   const auto isWanted = [&write](tufted::Format format) {
     return std::find(write.formats.begin(), write.formats.end(), format) != write.formats.end();
   };
   const bool keep_cover = isWanted(tufted::Format::cover) || isWanted(tufted::Format::triangles);
-  bar.setPoints(geometry.points.rows());
+  bar.follow({geometry, {}});
   const tufted::Laplacian laplacian = buildLaplacian(geometry, settings.input, settings.build, keep_cover, progress);
-  bar.setPoints(0);
   write.source = settings.input.name();
   if (settings.input.chosen.of > 0)
     write.selection =

@@ -82,7 +82,7 @@ void addLogmap(CLI::App& app, Run& run) {
   using namespace logmap_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "logmap", description, footer, compute, check);
-  settings->source.needs_cover = true;
+  settings->source.cover = CoverUse::all;
   addOrienting(*command, settings->orienting);
   addPointOptions(*command, settings->points, "Source, the centre of the map");
   command

@@ -43,6 +43,7 @@ void checkLook(const Look& look, const std::filesystem::path& out, const std::ve
 struct ShownField {
   std::string name;
   Eigen::Index columns = 1;  ///< columns to choose from; 1 also if all are shown together; 0: not known yet
+  Eigen::Index least = 1;    ///< columns that there are at least, where they are not known
 };
 
 /// The fields of every Laplacian.

@@ -30,8 +30,8 @@ Files in DIR, which replace older ones when all are complete:
   points.ply     the moved points, without normals; points.pcd with --format pcd
   report.json    fixed and moved points, area before and after, iterations, whether they converged, seconds
 `tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --format npz,ply,cover --out DIR` wrote: this command
-needs the cover, and of a mesh also the triangles in points.ply.)";
+`tufted laplacian --format npz,ply,cover --out DIR` wrote: clouds
+need the cover, and meshes only their triangles in points.ply.)";
 
 struct Settings {
   OperatorSettings source;
@@ -87,7 +87,7 @@ void addMinimal(CLI::App& app, Run& run) {
   using namespace minimal_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "minimal", description, footer, compute, check);
-  settings->source.needs_cover = true;
+  settings->source.cover = CoverUse::clouds;
   command
       ->add_option("--fixed", settings->fixed,
                    "Text file of points that stay, an INDEX per line (the points of the rim)")

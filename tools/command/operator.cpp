@@ -55,8 +55,8 @@ void addSolvingOptions(CLI::App& command, Solving& solving) {
 
 void readFolder(const OperatorSettings& settings, Operator& source) {
   const std::filesystem::path& folder = settings.folder;
-  source.laplacian = tufted::readLaplacian(folder, settings.needs_cover);
-  if (settings.needs_cover && !source.laplacian.hasCover())
+  source.laplacian = tufted::readLaplacian(folder, settings.needsCover(false));
+  if (settings.needsCover(source.laplacian.kind == tufted::Kind::mesh) && !source.laplacian.hasCover())
     throw tufted::IoError(folder.string() + ": has no cover.npz, which `tufted laplacian --format npz,ply,cover` " +
                           "writes and " + settings.command + " needs");
   source.geometry = tufted::readPoints(folder, source.progress);
@@ -72,13 +72,12 @@ tufted::Scene shownScene(const OperatorSettings& settings, const Operator& sourc
   return sceneOf(title, source.geometry, source.laplacian, results.shown.empty() ? results.arrays : results.shown);
 }
 
-/// The fields that can be shown.
+/// The fields that the results become.
 std::vector<ShownField> fieldsOf(const OperatorSettings& settings, const std::vector<std::string>& files) {
   std::vector<ShownField> fields = settings.shown;
   if (fields.empty())
     for (const std::filesystem::path file : files)
       if (file.extension() == ".npy" && isShown(file.stem().string())) fields.push_back({file.stem().string()});
-  fields.insert(fields.end(), laplacian_fields.begin(), laplacian_fields.end());
   return fields;
 }
 
@@ -109,16 +108,21 @@ std::string whyNothing(const Operator& source) {
   return is_built ? nothingActive(source.laplacian) : "";
 }
 
-/// Runs a step of a command. @throws IoError instead of InvalidInput if no point is active, because then the data is at
-/// fault and not the command line
+/// Runs a step of a command. Messages name points by their rows in the file.
+/// @throws IoError instead of InvalidInput if no point is active, because then the data is at fault and not the command
+/// line
 template <class Step>
 auto blameData(const Operator& source, const Step& step) {
   try {
     return step();
   } catch (const tufted::InvalidInput& error) {
-    const std::string why = whyNothing(source);
-    if (why.empty()) throw;
-    throw tufted::IoError(source.name + ": " + why + ": " + error.what());
+    const std::string why = whyNothing(source), message = source.chosen.inFile(error.what());
+    if (why.empty()) throw tufted::InvalidInput(message);
+    throw tufted::IoError(source.name + ": " + why + ": " + message);
+  } catch (const tufted::SolverFailure& error) {
+    throw tufted::SolverFailure(source.chosen.inFile(error.what()));
+  } catch (const tufted::IoError& error) {
+    throw tufted::IoError(source.chosen.inFile(error.what()));
   }
 }
 
@@ -186,16 +190,17 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   checkpoint();
   if (settings.look.isWanted() && source.geometry.points.rows() == 0 && source.points() > 0)
     throw tufted::IoError(source.name + ": has no points to look at, which `tufted laplacian --format npz,ply` writes");
-  requirePointsOfLas(source.geometry, settings.copies, source.name);
   blameData(source, [&] { check(source); });
   const bool moves = !settings.shown.empty() && settings.shown.front().name == moved_points_field;
-  checkField(settings.look, source.geometry, fieldsOf(settings, files), !moves);
-  bar.setPoints(source.points());
+  std::vector<ShownField> fields = fieldsOf(settings, files);
+  requireLas(source.geometry, settings.copies, source.name, fields);
+  fields.insert(fields.end(), laplacian_fields.begin(), laplacian_fields.end());
+  checkField(settings.look, source.geometry, fields, !moves);
+  bar.follow({source.geometry, settings.stages});
   if (settings.folder.empty())
-    source.laplacian =
-        buildLaplacian(source.geometry, settings.input, settings.build, settings.needs_cover, source.progress);
+    source.laplacian = buildLaplacian(source.geometry, settings.input, settings.build,
+                                      settings.needsCover(source.geometry.is_mesh), source.progress);
   source.moved = std::move(settings.build.moved);
-  bar.setPoints(0);
   checkpoint();
   std::vector<std::string> warnings = source.geometry.notes;
   for (const std::string& line : warningsOf(source.name, source.laplacian.report)) warnings.push_back(line);

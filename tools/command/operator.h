@@ -17,6 +17,7 @@
 #include "input.h"
 #include "look.h"
 #include "paths.h"
+#include "plan.h"
 #include "summary.h"
 #include "tufted/io/results.h"
 #include "tufted/laplacian.h"
@@ -34,6 +35,9 @@ struct Solving {
 /// The field that shows how far points move; the normals of the old positions are not shown with it.
 inline constexpr const char* moved_points_field = "displacement";
 
+/// For which sources a command needs the cover: of a cloud it has the triangles, which a mesh has by itself.
+enum class CoverUse { none, clouds, all };
+
 /// The options of a command that uses a Laplacian.
 struct OperatorSettings {
   std::string command;           ///< name of the command
@@ -49,8 +53,11 @@ struct OperatorSettings {
   std::vector<ShownField> shown;
   std::vector<NamedInput> inputs;  ///< all files and folders that the command reads
   std::vector<tufted::Format> copies = {tufted::Format::ply};
-  bool needs_cover = false;  ///< whether the command needs the cover, not only L and M
+  CoverUse cover = CoverUse::none;
+  PlannedStages stages = solvingStages();  ///< what comes between the build and writing
 
+  /// Whether the command needs the cover, not only L and M.
+  bool needsCover(bool is_mesh) const { return cover == CoverUse::all || (cover == CoverUse::clouds && !is_mesh); }
   /// Name of the source in messages.
   std::string name() const { return folder.empty() ? input.name() : folder.string(); }
 };

@@ -50,6 +50,7 @@ void check(Settings& settings, const Operator& source) {
     throw tufted::IoError(source.name + ": has neither frames of a cloud nor the triangles of a mesh, which " +
                           "`tufted laplacian --format npz,ply` writes");
   checkPairs(settings.pairs, source);
+  settings.source.stages = spectralStages(settings.pairs.count);
   settings.source.shown = {{"evecs", settings.pairs.folder.empty() ? settings.pairs.count : 0}};
 }
 

@@ -41,11 +41,15 @@ void addCopies(CLI::App& command, std::vector<tufted::Format>& target) {
              "Formats of the copy of the points with the results, separated by commas: ply, pcd, las, or none (ply)");
 }
 
-void requirePointsOfLas(const tufted::Geometry& geometry, const std::vector<tufted::Format>& formats,
-                        const std::string& name) {
-  const bool is_wanted = std::find(formats.begin(), formats.end(), tufted::Format::las) != formats.end();
-  if (is_wanted && !geometry.points.allFinite())
+void requireLas(const tufted::Geometry& geometry, const std::vector<tufted::Format>& formats, const std::string& name,
+                const std::vector<ShownField>& fields) {
+  if (std::find(formats.begin(), formats.end(), tufted::Format::las) == formats.end()) return;
+  if (!geometry.points.allFinite())
     throw tufted::IoError(name + ": has points that are not finite, which points.las cannot hold; --format ply can");
+  std::vector<tufted::ResultArray> arrays;
+  for (const ShownField& field : fields)
+    arrays.push_back({field.name, Eigen::MatrixXd(0, std::max(field.columns, field.least))});
+  tufted::checkLas(geometry, arrays);
 }
 
 void checkOutput(const std::vector<NamedInput>& inputs, const std::filesystem::path& out,

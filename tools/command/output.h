@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "look.h"
 #include "paths.h"
 #include "tufted/io/write.h"
 
@@ -19,11 +20,12 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
 /// Adds --format for the copies of the points: ply, pcd and las.
 void addCopies(CLI::App& command, std::vector<tufted::Format>& target);
 
-/// Checks before the build that LAS can hold the points if one of the formats is LAS.
+/// Checks before the build that LAS can hold the points and the results if one of the formats is LAS.
 /// @param name of the input, for messages
-/// @throws IoError for points that are not finite
-void requirePointsOfLas(const tufted::Geometry& geometry, const std::vector<tufted::Format>& formats,
-                        const std::string& name);
+/// @param fields results of each point
+/// @throws IoError for points that are not finite, InvalidInput as tufted::checkLas()
+void requireLas(const tufted::Geometry& geometry, const std::vector<tufted::Format>& formats, const std::string& name,
+                const std::vector<ShownField>& fields);
 
 /// Checks before the build that `files` can be written into `out`.
 /// @param inputs files and folders that the command reads

@@ -37,8 +37,8 @@ Files in DIR, which replace older ones when all are complete:
   report.json  method, charts, rims, flipped and collapsed triangles, quasi_conformal_error (1 where all angles are
                kept), residual, seconds
 `tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --format npz,ply,cover --out DIR` wrote: this command
-needs the cover, and of a mesh also the triangles in points.ply.)";
+`tufted laplacian --format npz,ply,cover --out DIR` wrote: clouds
+need the cover, and meshes only their triangles in points.ply.)";
 
 using tufted::HarmonicWeights;
 using tufted::ParameterizationMethod;
@@ -135,7 +135,7 @@ void addParameterize(CLI::App& app, Run& run) {
   using namespace parameterize_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "parameterize", description, footer, compute, check);
-  settings->source.needs_cover = true;
+  settings->source.cover = CoverUse::clouds;
   addChoice(*command, "--method", settings->options.method, methods,
             "conformal: keeps angles, free rim; harmonic: rim on a circle or as in --rim (conformal)");
   addChoice(*command, "--weights", settings->options.weights, weights,

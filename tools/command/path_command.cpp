@@ -69,7 +69,7 @@ Results compute(Settings& settings, Operator& source) {
 void addPath(CLI::App& app, Run& run) {
   using namespace path_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "path", description, footer, compute, check);
-  settings->source.needs_cover = true;
+  settings->source.cover = CoverUse::all;
   command
       ->add_option("--from", settings->from,
                    "Start of the path: index of a point, or a position, which stands for the nearest point")

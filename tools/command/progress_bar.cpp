@@ -17,21 +17,13 @@ std::string duration(double seconds) {
                     : std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
 }
 
-/// A rate as text: "1.3 M points/s", "520 k points/s".
-std::string rate(double points_per_second) {
-  char text[32];
-  const bool is_large = points_per_second >= 1e6;
-  std::snprintf(text, sizeof text, "%.3g %s points/s", points_per_second / (is_large ? 1e6 : 1e3),
-                is_large ? "M" : "k");
-  return text;
-}
-
 }  // namespace
 
 ProgressBar::ProgressBar(bool is_quiet) : terminal_(!is_quiet && isatty(STDERR_FILENO) != 0) {}
 
 void ProgressBar::show(std::string_view stage, double fraction) {
   if (!terminal_) return;
+  const bool is_known = plan_.isEmpty() || plan_.reach(stage, fraction);
   constexpr auto interval = std::chrono::milliseconds(100);
   const auto now = Clock::now();
   if (stage == stage_ && now - last_ < interval) return;
@@ -40,21 +32,20 @@ void ProgressBar::show(std::string_view stage, double fraction) {
   fraction_ = fraction;
   stage_ = stage;
   shown_ = true;
+  const double share = plan_.isEmpty() ? std::clamp(fraction, 0.0, 1.0) : plan_.share();
   constexpr int width = 30;
-  const int done = std::clamp(static_cast<int>(fraction * width), 0, width);
+  const int done = static_cast<int>(share * width);
   const std::string bar = std::string(done, '#') + std::string(width - done, '.');
-  const double elapsed = std::chrono::duration<double>(now - stage_start_).count();
+  const auto from = is_known && !plan_.isEmpty() ? start_ : stage_start_;
+  const double elapsed = std::chrono::duration<double>(now - from).count();
   std::string pace;
-  if (points_ > 0 && fraction > 0 && elapsed > 0.1)
-    pace += ", " + rate(fraction * static_cast<double>(points_) / elapsed);
-  // An estimate made too early would jump.
-  if (elapsed > 1 && fraction > 0.01 && fraction < 1)
-    pace += ", " + duration(elapsed * (1 - fraction) / fraction) + " left";
+  // An estimate made too early would jump, and a stage that is not in the plan may take any time.
+  if (elapsed > 1 && is_known && share > 0.01 && share < 1)
+    pace = ", " + duration(elapsed * (1 - share) / share) + " left";
   else if (elapsed > 1)
-    pace += ", " + duration(elapsed);
+    pace = ", " + duration(elapsed);
   // Returns to the first column, and erases the rest of a longer line.
-  std::fprintf(stderr, "\r%s %3.0f %% %s%s\033[K", bar.c_str(), std::clamp(fraction, 0.0, 1.0) * 100, stage_.c_str(),
-               pace.c_str());
+  std::fprintf(stderr, "\r%s %3.0f %% %s%s\033[K", bar.c_str(), share * 100, stage_.c_str(), pace.c_str());
   std::fflush(stderr);
 }
 

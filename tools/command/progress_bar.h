@@ -1,14 +1,15 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "plan.h"
 #include "tufted/options.h"
 
-/// A line on stderr that is overwritten as work proceeds: the stage, the fraction that is done, the rate, and the time
-/// left. Shows nothing if stderr is not a terminal.
+/// A line on stderr that is overwritten as work proceeds: the stage, the share that is done, and the time left: with a
+/// plan of the whole command, otherwise of the stage. Shows nothing if stderr is not a terminal.
 class ProgressBar {
  public:
   /// @param is_quiet whether to show nothing
@@ -19,8 +20,8 @@ class ProgressBar {
 
   /// @param fraction of the stage that is done, in [0, 1]
   void show(std::string_view stage, double fraction);
-  /// Sets how many points the next stages process, for the rate; 0: no rate is shown.
-  void setPoints(std::int64_t points) { points_ = points; }
+  /// Shows from now on how much of the whole command is done.
+  void follow(Plan plan) { plan_ = std::move(plan); }
   /// Removes the line.
   void clear();
 
@@ -30,9 +31,9 @@ class ProgressBar {
   bool terminal_;
   bool shown_ = false;
   std::string stage_;
-  std::int64_t points_ = 0;
+  Plan plan_;
   double fraction_ = 0;
-  Clock::time_point last_ = {}, stage_start_ = {};
+  Clock::time_point last_ = {}, start_ = Clock::now(), stage_start_ = {};
 };
 
 /// Shows progress on the bar, which is borrowed, and cancels after Ctrl-C.

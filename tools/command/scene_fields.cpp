@@ -1,35 +1,16 @@
 #include "scene_fields.h"
 
 #include <array>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <utility>
+
+#include "field_values.h"
 
 namespace {
 
 using tufted::FieldKind;
 using tufted::SceneField;
-
-Eigen::MatrixXd valuesOf(const tufted::Field& field, Eigen::Index rows) {
-  Eigen::MatrixXd values(rows, field.count);
-  for (Eigen::Index i = 0; i < rows; ++i)
-    for (int k = 0; k < field.count; ++k)
-      values(i, k) = tufted::valueOf(field, static_cast<std::size_t>(i * field.count + k));
-  return values;
-}
-
-/// Red, green and blue of packed colours.
-Eigen::MatrixXd unpacked(const tufted::Field& field, Eigen::Index rows) {
-  Eigen::MatrixXd values(rows, 3);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    std::uint32_t packed = 0;
-    std::memcpy(&packed, field.bytes.data() + 4 * i, 4);
-    for (int k = 0; k < 3; ++k) values(i, k) = (packed >> (16 - 8 * k)) & 0xff;
-  }
-  return values;
-}
 
 }  // namespace
 
@@ -98,10 +79,8 @@ std::vector<SceneField> fieldsOf(const tufted::Geometry& geometry) {
   std::vector<SceneField> fields;
   Eigen::MatrixXd color;
   for (const tufted::Field& field : geometry.fields) {
-    const bool is_packed = isOneOf(field.name, {"rgb", "rgba"}) && field.count == 1 &&
-                           field.bytes.size() == 4 * static_cast<std::size_t>(n);
-    if (is_packed) {
-      color = unpacked(field, n);
+    if (tufted::isPackedColor(field)) {
+      color = valuesOf(field, n);
     } else if (isOneOf(field.name, {"red", "green", "blue"})) {
       if (color.rows() != n) color = Eigen::MatrixXd::Zero(n, 3);
       const double scale = field.type == tufted::FieldType::uint16 ? 1.0 / 257 : 1;

@@ -41,8 +41,8 @@ Files in DIR, which replace older ones when all are complete:
   points.ply   the points with the field labels, float32; points.pcd with --format pcd
   report.json  method, seeds, the area of each segment in length^2, seconds
 `tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --format npz,ply,cover --out DIR` wrote: distances
-need the triangles of the cover.)";
+`tufted laplacian --format npz,ply,cover --out DIR` wrote: cells need
+the triangles of the cover, other methods do without.)";
 
 const std::map<std::string, tufted::SegmentMethod> methods = {{"voronoi", tufted::SegmentMethod::voronoi},
                                                               {"spectral", tufted::SegmentMethod::spectral},
@@ -113,7 +113,7 @@ void addSegment(CLI::App& app, Run& run) {
   using namespace segment_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "segment", description, footer, compute, check);
-  settings->source.needs_cover = true;
+  settings->source.cover = CoverUse::all;
   CLI::Option* const count = addNumber(*command, "--count", settings->options.count, 1, std::numeric_limits<int>::max(),
                                        "Number of segments (8, or as many as possible if fewer)")
                                  ->type_name("K");
@@ -125,7 +125,10 @@ void addSegment(CLI::App& app, Run& run) {
       ->type_name("I,J,...");
   addChoice(
       *command, "--method", settings->options.method, methods,
-      "voronoi: cells around seeds; spectral: parts that narrow necks join; parts: between concave creases (voronoi)");
+      "voronoi: cells around seeds; spectral: parts that narrow necks join; parts: between concave creases (voronoi)")
+      ->each([settings = settings.get()](const std::string& method) {
+        settings->source.cover = method == "voronoi" ? CoverUse::all : CoverUse::none;
+      });
   addNumber(*command, "--crease", settings->options.crease, std::numeric_limits<double>::min(),
             std::numeric_limits<double>::max(),
             "parts: a crease is where the normal turns inwards by more than RAD over one spacing (0.08)")

@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstring>
 #include <system_error>
 
+#include "field_values.h"
 #include "options.h"
 #include "tufted/errors.h"
 
@@ -12,28 +12,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using tufted::Field;
-
-/// Red, green and blue of the points, which PCD packs into four bytes.
-MatrixXd unpack(const Field& field, Eigen::Index n) {
-  MatrixXd colors(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    std::uint32_t packed = 0;
-    std::memcpy(&packed, field.bytes.data() + i * sizeof(packed), sizeof(packed));
-    colors.row(i) << (packed >> 16 & 255), (packed >> 8 & 255), (packed & 255);
-  }
-  return colors;
-}
-
-MatrixXd valuesOf(const Field& field, Eigen::Index n) {
-  const bool is_packed = (field.name == "rgb" || field.name == "rgba") && field.count == 1 &&
-                         (field.type == tufted::FieldType::float32 || field.type == tufted::FieldType::uint32);
-  if (is_packed) return unpack(field, n);
-  MatrixXd values(n, field.count);
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index c = 0; c < field.count; ++c)
-      values(i, c) = tufted::valueOf(field, static_cast<std::size_t>(i * field.count + c));
-  return values;
-}
 
 /// The names that --field accepts: the fields, then what readers move out of them, such as x, y, z.
 std::vector<std::string> namesOf(const tufted::Geometry& geometry) {

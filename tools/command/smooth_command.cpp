@@ -137,7 +137,11 @@ void addSmooth(CLI::App& app, Run& run) {
       ->type_name("MU");
   addNumber(*command, "--iterations", settings->iterations, 1, 1000000, "Number of steps (1)")->type_name("N");
   command->add_flag_callback(
-      "--keep-volume", [settings = settings.get()] { settings->keep_volume = settings->source.needs_cover = true; },
+      "--keep-volume",
+      [settings = settings.get()] {
+        settings->keep_volume = true;
+        settings->source.cover = CoverUse::clouds;
+      },
       "Scale each component to its former volume; all components must be closed");
   command->add_option("--fixed", settings->fixed_file, "Text file of points that stay, an INDEX per line (none)")
       ->check(notEmpty)

@@ -41,7 +41,9 @@ struct Settings {
 
 void check(Settings& settings, const Operator& source) {
   checkPairs(settings.pairs, source);
-  settings.source.shown = {{"evecs", settings.with_null_space ? 0 : settings.pairs.count}};
+  const int count = settings.pairs.count;
+  settings.source.stages = spectralStages(count);
+  settings.source.shown = {{"evecs", settings.with_null_space ? 0 : count, count}};
 }
 
 Results compute(Settings& settings, Operator& source) {

@@ -6,12 +6,12 @@
 
 namespace {
 
-/// Why a point takes no part; an empty string if it does.
+/// Why a point takes no part, with its row in the results; an empty string if it does.
 std::string whyLeftOut(int point, const Operator& source) {
   const tufted::Laplacian& laplacian = source.laplacian;
   const tufted::PointStatus status = laplacian.status[laplacian.representative[point]];
   if (status == tufted::PointStatus::active) return "";
-  const std::string name = "point " + std::to_string(source.chosen.numberOf(point));
+  const std::string name = "point " + std::to_string(point);
   if (status == tufted::PointStatus::not_finite) return name + " is not finite";
   const bool is_excluded = !source.all_components.empty() && source.all_components[point] >= 0;
   return name + (is_excluded ? " lies on a component that " + source.chosen_by + " leaves out" : " is isolated");
@@ -34,7 +34,7 @@ void noteLeftOut(const std::vector<int>& points, const Operator& source, Results
   if (left_out.size() == points.size() && !others)
     throw tufted::InvalidInput("no point that is named takes part, must be at least one: " + why);
   const std::string count = std::to_string(left_out.size()) + " of " + std::to_string(points.size());
-  results.warnings.push_back(count + " points that are named take no part: " + why);
+  results.warnings.push_back(count + " points that are named take no part: " + source.chosen.inFile(why));
   results.summary.add("left out", "%s points that are named", count.c_str());
   results.report["left_out"] = left_out;
 }

@@ -95,7 +95,7 @@ Results compute(Settings& settings, Operator& source) {
 void addTrace(CLI::App& app, Run& run) {
   using namespace trace_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "trace", description, footer, compute, check);
-  settings->source.needs_cover = true;
+  settings->source.cover = CoverUse::clouds;
   addPointOptions(*command, settings->points, "Start");
   addFaceOption(*command, settings->faces, "Start");
   command->add_option("--direction", settings->direction_text, "Direction in which the line starts, of any length")

@@ -29,6 +29,9 @@ struct Field {
 /// Value i of the N * count values of a field, 0 <= i. 64-bit integers beyond 2^53 are rounded.
 double valueOf(const Field& field, std::size_t i);
 
+/// Whether a field is a colour that PCL packed as 0xAARRGGBB into four bytes: one value `rgb` or `rgba` per point.
+bool isPackedColor(const Field& field);
+
 /// The name by which the library knows a field, whatever program wrote the file: `x` for "X", "Points_m_XYZ:0" and
 /// Easting, `nx` for normal_x, `red` for R and diffuse_red, `gps_time` for GpsTime. Other names become one word in
 /// lower case without quotes. Readers give such names to the fields they know; all others keep their capitals.

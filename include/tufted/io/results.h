@@ -51,6 +51,11 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
                   const std::vector<ResultArray>& arrays, const ResultOptions& options = {});
 
+/// Checks, before results are computed, that a point of points.las has room for its own fields and for the results.
+/// @param arrays of which only the names and the numbers of columns count
+/// @throws InvalidInput for too many values per point, or a first point that LAS cannot hold
+void checkLas(const Geometry& geometry, const std::vector<ResultArray>& arrays = {});
+
 /// Names of the files of the last result in a folder, as its report.json lists them. Other files there belong to an
 /// earlier result or are unrelated, and functions that read folders ignore them.
 /// @throws IoError for a folder without a report.json that lists files

@@ -50,7 +50,8 @@ void removeFileRow(Geometry& geometry);
 /// @throws InvalidInput for a mesh, a comparison that cannot be parsed or names no field, a box whose lower corner
 /// exceeds the upper one, a polygon of one or two corners or of coordinates beyond 1e150, a spacing that
 /// thinPoints() refuses, or if none of the points is kept
-std::vector<int> select(Geometry& geometry, const Selection& selection);
+/// @throws Cancelled when `progress` returns false; the geometry is then unchanged
+std::vector<int> select(Geometry& geometry, const Selection& selection, const Progress& progress = {});
 
 /// Thins points to a Poisson disk sample: no two of the chosen points are closer than `spacing`, and every other point
 /// is closer than that to a chosen one. Points are visited in an order that depends on their coordinates alone, and
@@ -59,6 +60,7 @@ std::vector<int> select(Geometry& geometry, const Selection& selection);
 /// @param spacing in the unit of the points, in [1e-150, 1e150]
 /// @return indices of the chosen points, ascending; of equal points the first, and none that is not finite
 /// @throws InvalidInput for another spacing
-std::vector<int> thinPoints(const Points& points, double spacing);
+/// @throws Cancelled when `progress` returns false
+std::vector<int> thinPoints(const Points& points, double spacing, const Progress& progress = {});
 
 }  // namespace tufted

@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
       {"thick", "Meshes that are not manifold beside tetrahedra that fill a layer around them", bench::printThick},
       {"distance", "Errors of distances on the vertices of real shapes", bench::printDistance},
       {"dataset", "Whether all guarantees hold on the meshes of a folder", bench::printDataset},
+      {"cover", "The tufted cover of a small mesh and its intrinsic edges, as a drawing", bench::printCover},
   };
   bench::Settings settings;
   std::string json;
@@ -78,6 +79,9 @@ int main(int argc, char** argv) {
   for (const Command& command : commands) {
     CLI::App* added = app.add_subcommand(command.name, command.purpose);
     if (command.print == bench::printDataset) added->add_option("DIR", settings.meshes, "Folder, with its subfolders");
+    if (command.print != bench::printCover) continue;
+    added->add_option("FILE", settings.file, "Mesh of at most 2,000 triangles (a sheared book of three pages)");
+    added->add_option("--svg", settings.picture, "Draw into this file");
   }
   CLI11_PARSE(app, argc, argv);
   try {

@@ -22,6 +22,8 @@ struct Settings {
   int seeds = 1;
   int shapes = 6;                   ///< at most this many real shapes
   std::vector<std::string> rivals;  ///< empty: all
+  std::filesystem::path file;       ///< the mesh of `cover`; empty: a sheared book of three pages
+  std::filesystem::path picture;    ///< where `cover` draws; empty: nowhere
   int k = 0;                        ///< instead of the one of each rival, if not 0
 
   int pointsOr(int otherwise) const { return points > 0 ? points : otherwise; }
@@ -45,5 +47,6 @@ Json printOrders(const Settings& settings);    ///< eigenvalues with other order
 Json printThick(const Settings& settings);     ///< meshes that are not manifold beside tetrahedra that fill a layer
 Json printDistance(const Settings& settings);  ///< errors of distances on the vertices of real shapes
 Json printDataset(const Settings& settings);   ///< whether all guarantees hold on the meshes of a folder
+Json printCover(const Settings& settings);     ///< the tufted cover and its intrinsic edges, as a drawing
 
 }  // namespace tufted::bench
