@@ -165,6 +165,7 @@ def test_a_spectrum_at_hand_serves_signatures(meshes):
 
 @pytest.mark.parametrize("call, words", [
     (lambda a, b: tufted.functional_map(a, 3), "functional_map: target is a int, must be a PointCloud or a Mesh"),
+    (lambda a, b: tufted.functional_map(a, tufted.Mesh(b.points, b.faces[:0])), "a shape has the area 0, must have"),
     (lambda a, b: tufted.functional_map(a, b, commutativity=-1), "commutativity = -1, must be finite and at least 0"),
     (lambda a, b: tufted.functional_map(a, b, weights=[1]), "weights is given, must be None without descriptors"),
     (lambda a, b: tufted.functional_map(a, b, a.M), "descriptors must be a pair"),

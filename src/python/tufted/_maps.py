@@ -114,7 +114,7 @@ class _Basis:
     def __init__(self, surface, k, progress):
         area = surface.M.sum()
         if not area > 0:
-            raise InvalidInput("spectrum: no point has an area")
+            raise InvalidInput("functional_map: a shape has the area 0, must have points that take part")
         values, vectors = surface._first_pairs(k, progress)
         self.values, self.vectors, self.masses = values * area, vectors * np.sqrt(area), surface.M / area
         self.takes_part = surface.status[surface.representative] == 0
