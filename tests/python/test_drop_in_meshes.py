@@ -236,6 +236,10 @@ def test_the_local_triangulation_of_a_cartwheel():
         assert (found[point, 2:] == -1).all()
 
 
+def marched(V, F, *curves):
+    return pp3d.MeshFastMarchingDistanceSolver(V, F).compute_distance(*curves)
+
+
 @pytest.mark.parametrize("call, words", [
     (lambda V, F: pp3d.write_mesh(V, F, "mesh.txt"), "filename = 'mesh.txt', must end in .obj, .ply or .off"),
     (lambda V, F: pp3d.write_mesh(V, F, "m.ply", V[:, :2], "per-vertex"), "must end in .obj to hold UV_coords"),
@@ -243,18 +247,17 @@ def test_the_local_triangulation_of_a_cartwheel():
     (lambda V, F: pp3d.write_mesh(V, F, "m.obj", V[:4, :2], "per-vertex"), "UV_coords has the shape 4 x 2"),
     (lambda V, F: pp3d.face_areas(V, F + len(V)), "face_areas: F has"),
     (lambda V, F: pp3d.edges(V, [[0, 10**6]]), "edges: F has 1000000"),
-    (lambda V, F: pp3d.MeshFastMarchingDistanceSolver(V, F).compute_distance([[(0, [])]], [[1.0]]), "must be 0 or empty"),
-    (lambda V, F: pp3d.MeshFastMarchingDistanceSolver(V, F).compute_distance([[(10**6, [])]]), "curves has 1000000"),
-    (lambda V, F: pp3d.MeshFastMarchingDistanceSolver(V, F).compute_distance([[(0, [0.9, 0.9])]]), "must be one to three in [0, 1]"),
-    (lambda V, F: pp3d.MeshFastMarchingDistanceSolver(V, F).compute_distance([[(0, [0.2] * 4)]]), "must be one to three"),
-    (lambda V, F: pp3d.MeshFastMarchingDistanceSolver(np.vstack([V, V[:1]]), F).compute_distance([[(len(V), [])]]),
-     "curves has the vertex 96, must be a corner of a face"),
+    (lambda V, F: marched(V, F, [[(0, [])]], [[1.0]]), "must be 0 or empty"),
+    (lambda V, F: marched(V, F, [[(10**6, [])]]), "curves has 1000000"),
+    (lambda V, F: marched(V, F, [[(0, [0.9, 0.9])]]), "must be one to three in [0, 1]"),
+    (lambda V, F: marched(V, F, [[(0, [0.2] * 4)]]), "must be one to three in [0, 1]"),
+    (lambda V, F: marched(np.vstack([V, V[:1]]), F, [[(96, [])]]), "curves has the vertex 96, must be a corner of a"),
     (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([[(0, [])]], level_set_constraint="None"),
      "level_set_constraint = 'None', must be 'ZeroSet'"),
     (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([]), "must have at least one source"),
     (lambda V, F: pp3d.MeshVectorHeatSolver(V, F).compute_log_map(0, "Fast"), "strategy = 'Fast', must be one of"),
-    (lambda V, F: pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_loop([0]), "find_geodesic_loop: v_list has 1 indices"),
-    (lambda V, F: pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_path(0, 10**6), "find_geodesic_path: v_end has 1000000"),
+    (lambda V, F: pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_loop([0]), "find_geodesic_loop: v_list has 1"),
+    (lambda V, F: pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_path(0, 10**6), "find_geodesic_path: v_end has"),
     (lambda V, F: pp3d.GeodesicTracer(V, F).trace_geodesic_from_vertex(0, [1, 2]), "direction_xyz has the shape 2"),
 ])
 def test_mistakes_are_named_as_the_caller_names_them(call, words):

@@ -19,6 +19,8 @@ def test_distances_of_landmarks_are_those_of_single_queries(mesh):
     assert len(stages) == 3
     with pytest.raises(tufted.InvalidInput, match="distance_matrix: sources has 1800"):
         mesh.distance_matrix([0, 1800])
+    with pytest.raises(tufted.InvalidInput, match="^distance_matrix: no source lies on a component"):
+        tufted.PointCloud(np.vstack([CLOUD, [[np.nan] * 3]])).distance_matrix([0, 3000])
 
 
 def test_ways_through_points_keep_their_class_on_clouds():

@@ -165,6 +165,7 @@ def test_a_spectrum_at_hand_serves_signatures(meshes):
 
 @pytest.mark.parametrize("call, words", [
     (lambda a, b: tufted.functional_map(a, 3), "functional_map: target is a int, must be a PointCloud or a Mesh"),
+    (lambda a, b: tufted.functional_map(a, tufted.Mesh(b.points, b.faces[:0])), "a shape has the area 0, must have"),
     (lambda a, b: tufted.functional_map(a, b, commutativity=-1), "commutativity = -1, must be finite and at least 0"),
     (lambda a, b: tufted.functional_map(a, b, weights=[1]), "weights is given, must be None without descriptors"),
     (lambda a, b: tufted.functional_map(a, b, a.M), "descriptors must be a pair"),
@@ -187,13 +188,15 @@ def main():
     """Prints the table of docs/python.md: means over the seeds 101 to 105 of the greater mean error of both ways."""
     print("| pair | functional map | refined | with landmarks | with landmarks, refined |\n|---|---|---|---|---|")
     uv, faces = triangle_mesh(50)
-    report("triangle of 1,326 vertices, rolled up", [(tufted.Mesh(flat(uv), faces), tufted.Mesh(rolled(uv), faces), uv, uv)])
+    report("triangle of 1,326 vertices, rolled up",
+           [(tufted.Mesh(flat(uv), faces), tufted.Mesh(rolled(uv), faces), uv, uv)])
     for count in (2000, 8000):
         pairs = [(triangle_sample(count, seed), triangle_sample(count, seed + 100)) for seed in range(101, 106)]
         report(f"triangle, samples of {count:,} points", [(*clouds(flat(a), rolled(b)), a, b) for a, b in pairs])
     for count in (2000, 8000):
         pairs = [(body(count, seed), body(count, seed + 100)) for seed in range(101, 106)]
-        report(f"body with a side pushed in, samples of {count:,} points", [(*clouds(a, pushed_in(b)), a, b) for a, b in pairs])
+        report(f"body with a side pushed in, samples of {count:,} points",
+               [(*clouds(a, pushed_in(b)), a, b) for a, b in pairs])
 
 
 def clouds(*points):

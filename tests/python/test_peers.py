@@ -35,13 +35,12 @@ def found(name):
 
 
 def more(name, arguments):
-    """The arguments that ours has beside theirs; theirs must come first, by the same names and in the same order."""
+    """The arguments that ours has beside theirs, which must come first, by the same names and in the same order."""
     ours = [p for p in inspect.signature(found(name)).parameters.values() if p.name != "self"]
     assert [p.name for p in ours[:len(arguments)]] == arguments, name
-    kind = "classes" if inspect.isclass(found(name)) else "functions"
-    rest = [p.name for p in ours[len(arguments):]]
-    assert all(p.default is not p.empty or p.kind is p.VAR_KEYWORD for p in ours[len(arguments):]), (kind, name)
-    return rest
+    rest = ours[len(arguments):]
+    assert all(p.default is not p.empty or p.kind is p.VAR_KEYWORD for p in rest), name
+    return [p.name for p in rest]
 
 
 def table():
@@ -55,7 +54,8 @@ def table():
             lines.append(f"| `{name}` | no | {remark} |")
             continue
         also = more(name, arguments)
-        lines.append(f"| `{name}` | yes | {'; '.join(filter(None, [remark, also and 'also ' + ', '.join(f'`{each}`' for each in also)]))} |")
+        also = "also " + ", ".join(f"`{each}`" for each in also) if also else ""
+        lines.append(f"| `{name}` | yes | {'; '.join(filter(None, [remark, also]))} |")
     return re.sub(r"(?m)\n(?=\| potpourri3d)", "\n\n", "\n".join(lines))
 
 
@@ -67,7 +67,7 @@ def test_arguments_are_those_of_the_peer(name, arguments):
 
 
 def test_the_table_of_the_page_is_current():
-    assert table() in PAGE.read_text(), "run: python3 tests/python/test_peers.py, and put its table into docs/drop_in.md"
+    assert table() in PAGE.read_text(), "python3 tests/python/test_peers.py prints the table for docs/drop_in.md"
 
 
 if __name__ == "__main__":

@@ -80,8 +80,9 @@ class Distances:
             place = self._places("distance_matrix", where[k:k + 1], None, None)
             found[:, k] = solver.query(place, None)
 
-        for done, _ in enumerate(_in_threads(fill, where.size, self._solving["threads"]), 1):
-            check.report("distance_matrix", progress, done / where.size)
+        with check.named("distance_matrix"):
+            for done, _ in enumerate(_in_threads(fill, where.size, self._solving["threads"]), 1):
+                check.report("distance_matrix", progress, done / where.size)
         return found
 
     def points_within(self, sources, radius, *, split=None, progress=None):

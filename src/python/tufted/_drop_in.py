@@ -213,8 +213,8 @@ class MeshVectorHeatSolver(_MeshVectors):
         x, y, normal = np.moveaxis(surface.frames, 1, 0)
         cosine = np.einsum("ij,ij->i", normal[i], normal[j])
         # The x axis of j after the smallest rotation that takes its normal to that of i; opposite normals have none.
-        turned = x[j] - (np.einsum("ij,ij->i", x[j], normal[i]) / np.where(cosine > -1, 1 + cosine, np.inf))[:, None] * (
-            normal[i] + normal[j])
+        part = np.einsum("ij,ij->i", x[j], normal[i]) / np.where(cosine > -1, 1 + cosine, np.inf)
+        turned = x[j] - part[:, None] * (normal[i] + normal[j])
         rotation = np.einsum("ij,ij->i", turned, x[i]) + 1j * np.einsum("ij,ij->i", turned, y[i])
         size = abs(rotation)
         rotation = np.where(i == j, 1, rotation / np.where(size > 0, size, 1))

@@ -110,8 +110,8 @@ class MeshFastMarchingDistanceSolver(_MeshPlaces):
         curves: lists of places: (vertex, []), (edge, [t]), (face, [a, b]) or (face, [a, b, c]). Neighbours in a list
         are joined by a straight segment if they lie in one face.
         distances: those at the places, which must be 0 or left out.
-        sign: whether distances to the right of the curves are negative, by the signed heat method. For it, places within
-        edges and faces count as the nearest corner, so next to them the sign may be wrong.
+        sign: whether distances to the right of the curves are negative, by the signed heat method. For it, places
+        within edges and faces count as the nearest corner, so next to them the sign may be wrong.
         """
         if any(np.any(np.asarray(values) != 0) for values in distances):
             raise InvalidInput("compute_distance: distances has values, must be 0 or empty")
@@ -215,8 +215,8 @@ class EdgeFlipGeodesicSolver(_MeshLines):
             return self._surface.path(v_start, v_end).points
 
     def find_geodesic_path_poly(self, v_list, max_iterations=None, max_relative_length_decrease=None):
-        """The way through the vertices v_list, straightened: K x 3 points from the first to the last. max_iterations and
-        max_relative_length_decrease are ignored.
+        """The way through the vertices v_list, straightened: K x 3 points from the first to the last. max_iterations
+        and max_relative_length_decrease are ignored.
         """
         with check.named("find_geodesic_path_poly", points="v_list"):
             return self._surface.path_through(v_list).points

@@ -114,7 +114,7 @@ class _Basis:
     def __init__(self, surface, k, progress):
         area = surface.M.sum()
         if not area > 0:
-            raise InvalidInput("spectrum: no point has an area")
+            raise InvalidInput("functional_map: a shape has the area 0, must have points that take part")
         values, vectors = surface._first_pairs(k, progress)
         self.values, self.vectors, self.masses = values * area, vectors * np.sqrt(area), surface.M / area
         self.takes_part = surface.status[surface.representative] == 0
@@ -197,8 +197,8 @@ def _points(function, name, value, shapes):
     points = check.integers(function, name, value)
     source, target = shapes
     if points.shape != (len(target),) or points.max(initial=-1) >= len(source):
-        raise InvalidInput(f"{function}: {name} must be a matrix, or {len(target)} indices below {len(source)}, one for "
-                           "each point of the target")
+        raise InvalidInput(f"{function}: {name} must be a matrix, or {len(target)} indices below {len(source)}, one "
+                           "for each point of the target")
     return points
 
 
@@ -243,8 +243,8 @@ def _pair(function, shapes, descriptors):
         raise InvalidInput(f"{function}: descriptors must be a pair, of the source and of the target")
     computed = [vars(each) for each in descriptors if isinstance(each, Signature) and vars(each)]
     if len(computed) == 2 and not _agree(*computed):
-        raise InvalidInput(f"{function}: descriptors are signatures at different times or energies, must be at the same: "
-                           "b.hks(a.hks().times), b.wks(first.energies, width=first.width)")
+        raise InvalidInput(f"{function}: descriptors are signatures at different times or energies, must be at the "
+                           "same: b.hks(a.hks().times), b.wks(first.energies, width=first.width)")
     tables = [check.columns(function, "descriptors", each, len(shape))[0] for each, shape in zip(descriptors, shapes)]
     if tables[0].shape[1] != tables[1].shape[1]:
         raise InvalidInput(f"{function}: descriptors have {tables[0].shape[1]} and {tables[1].shape[1]} columns, must "
