@@ -98,10 +98,13 @@ class TileBuilds {
     for (std::size_t i = 0; i < built_.size();) {
       Built& built = built_[i];
       const auto needs = [&](int cell) { return std::binary_search(built.needed.begin(), built.needed.end(), cell); };
-      const std::size_t before = built.task.required.size();
-      for (const auto& [from, to] : far_pairs_)
-        if (needs(to) && !needs(from)) built.task.required.push_back(from);
-      if (built.task.required.size() == before) {
+      std::vector<int>& required = built.task.required;
+      const std::size_t before = required.size();
+      for (const auto& [from, to] : far_pairs_) {
+        const bool is_known = needs(from) || std::find(required.begin(), required.end(), from) != required.end();
+        if (needs(to) && !is_known) required.push_back(from);
+      }
+      if (required.size() == before) {
         ++i;
         continue;
       }

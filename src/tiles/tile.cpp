@@ -59,8 +59,8 @@ void Tile::holdMargin(const CloudOptions& options) {
   // One more for stars that have triangles with the points of these cells, and one because cells are not cut.
   int margin = 2 + static_cast<int>(std::min(std::ceil(corner), 1.0 * options.neighbors));
   margin += (options.steps.settle_diagonals ? 1 : 0) + (options.steps.isolate_outliers ? 1 : 0);
-  // The next build holds ever more, so that few builds are needed.
-  holdAround(wanted, margin * (task_.round + 1));
+  // A build again holds twice as much, so that few builds are needed.
+  holdAround(wanted, margin << std::min(task_.round, 16));
   holdAround(task_.lacking, margin);
   is_whole_ = held_points_ == cells_.begin(cells_.size());
 }
@@ -252,14 +252,18 @@ void Tile::addFaceRadii() {
 void Tile::findComplete() {
   std::vector<std::uint8_t> is_fit = is_sure_;
   for (const auto& [from, to] : doubtful_pairs_) is_fit[to] = 0;
+  const bool has_required =
+      std::all_of(task_.required.begin(), task_.required.end(), [&](int cell) { return is_sure_[cell] != 0; });
   std::vector<int> reached, needed;
   for (const int own : task_.own) {
-    reached = needed = task_.required;
+    reached.clear();
+    needed.clear();
     cells_.visit(cells_.box(own), dependence_[own], [&](int cell) { reached.push_back(cell); });
     // Any star may have triangles with points of the cells beside its own.
     for (const int cell : reached) cells_.visitNear(cell, [&](int near) { needed.push_back(near); });
     sortUnique(needed);
-    const bool is_complete = std::all_of(needed.begin(), needed.end(), [&](int cell) { return is_fit[cell] != 0; });
+    const auto isFit = [&](int cell) { return is_fit[cell] != 0; };
+    const bool is_complete = has_required && std::all_of(needed.begin(), needed.end(), isFit);
     (is_complete ? complete_ : incomplete_).push_back(own);
     if (is_complete)
       needed_.insert(needed_.end(), needed.begin(), needed.end());
@@ -267,6 +271,8 @@ void Tile::findComplete() {
       for (const int cell : needed) addLacking(cell);
     if (needed_.size() > 8 * is_own_.size()) sortUnique(needed_);
   }
+  if (!has_required)
+    for (const int cell : task_.required) addLacking(cell);
   sortUnique(needed_);
   sortUnique(lacking_);
 }
