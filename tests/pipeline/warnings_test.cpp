@@ -94,8 +94,20 @@ TEST(Warnings, TellOfVegetationOverTheGround) {
     EXPECT_LT(bare.thick_area, 0.01 * bare.area);
     const Report grown = pointCloudLaplacian(planeWithCrowns(16, seed)).report;  // 5 % of the points
     EXPECT_GT(grown.area, 1.3 * bare.area);
-    EXPECT_TRUE(has(onlyOf(warnings(grown)), "such as vegetation"));
+    EXPECT_TRUE(has(onlyOf(warnings(grown)), "fill volumes, as vegetation"));
   }
+}
+
+TEST(Warnings, TellOfSheetsThatDisagree) {
+  Report report;
+  report.points = report.active = 1000;
+  report.area = report.cover_area = 1;
+  for (const int lone : {100, 300})
+    for (const int split : {50, 150}) {
+      report.votes = {lone, 0, 1000 - lone};
+      report.split_neighborhoods = split;
+      EXPECT_EQ(has(onlyOf(warnings(report)), "vegetation"), lone == 300 && split == 150) << lone << ", " << split;
+    }
 }
 
 TEST(Warnings, TellOfImagesWhosePixelsAreMissing) {
