@@ -16,10 +16,6 @@ constexpr double many_thick = 0.25;
 /// If thick neighbourhoods of fewer points carry more than this share of the area, a warning says so: 0.12 to 0.25
 /// where 2 to 5 % of a simulated airborne scan are crowns of trees, 0.15 on a real one, at most 0.09 on surfaces.
 constexpr double much_thick_area = 0.11;
-/// The same warning comes if more than the first share of the triangles is in one star only, and more than the second
-/// of the neighbourhoods reach to other sheets: 0.34 and 0.18, 0.49 and 0.29 on scans of houses and trees. Of 45
-/// others, those above 0.2 have at most 0.05, those above 0.1 at most 0.09.
-constexpr double many_lone_triangles = 0.2, many_split = 0.1;
 /// If lengthened edges add more than this share of the area, a warning says so; less is invisible in a plot.
 constexpr double much_area = 1e-3;
 
@@ -27,26 +23,6 @@ std::string percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
   return text;
-}
-
-/// Warns of points that are on no surface, such as trees in an airborne scan.
-void addVegetation(const Report& report, std::vector<std::string>& all) {
-  const auto lone = static_cast<double>(report.votes[0]);
-  const auto triangles = static_cast<double>(report.votes[0] + report.votes[1] + report.votes[2]);
-  const bool is_torn = lone > many_lone_triangles * triangles && static_cast<double>(report.split_neighborhoods) >
-                                                                     many_split * static_cast<double>(report.active);
-  const std::string of = " of " + std::to_string(report.points) + " points";
-  std::string what;
-  if (report.thick_area > much_thick_area * report.area)
-    what = percent(report.thick_area / report.area) + " of the area belongs to " +
-           std::to_string(report.thick_neighborhoods) + of + ", which fill volumes";
-  else if (is_torn)
-    what = "the neighbourhoods of " + std::to_string(report.split_neighborhoods) + of +
-           " reach to other sheets, and triangles around them disagree";
-  if (!what.empty())
-    all.push_back(what +
-                  ", as vegetation does over the ground: areas and distances may be far off; leave such points "
-                  "out by class or height (--where of the command, where of read() in Python, select() in C++)");
 }
 
 /// Warns of a depth image with too many missing pixels.
@@ -89,7 +65,11 @@ std::vector<std::string> warnings(const Report& report) {
   add(are_many_thick, "the neighbourhoods of " + count(report.thick_neighborhoods) + " of " + count(report.points) +
                           " points are as thick as wide, as in volumes and on cables that " + count(report.neighbors) +
                           " neighbours reach around: areas may be far off, and fewer neighbours may do better");
-  if (!are_many_thick) addVegetation(report, all);
+  add(!are_many_thick && report.thick_area > much_thick_area * report.area,
+      percent(report.thick_area / report.area) + " of the area belongs to " + count(report.thick_neighborhoods) +
+          " of " + count(report.points) +
+          " points, which fill volumes, as vegetation does over the ground: areas and distances may be far off; leave "
+          "such points out by class or height (--where of the command, where of read() in Python, select() in C++)");
   addSparseImage(report.pixel_fill, all);
   return all;
 }

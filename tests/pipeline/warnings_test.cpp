@@ -98,18 +98,6 @@ TEST(Warnings, TellOfVegetationOverTheGround) {
   }
 }
 
-TEST(Warnings, TellOfSheetsThatDisagree) {
-  Report report;
-  report.points = report.active = 1000;
-  report.area = report.cover_area = 1;
-  for (const int lone : {100, 300})
-    for (const int split : {50, 150}) {
-      report.votes = {lone, 0, 1000 - lone};
-      report.split_neighborhoods = split;
-      EXPECT_EQ(has(onlyOf(warnings(report)), "vegetation"), lone == 300 && split == 150) << lone << ", " << split;
-    }
-}
-
 TEST(Warnings, TellOfImagesWhosePixelsAreMissing) {
   constexpr int width = 80, height = 60;
   shapes::Random random(104);
