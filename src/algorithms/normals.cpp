@@ -6,15 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <map>
-#include <queue>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "algorithms/check_frames.h"
 #include "algorithms/connected.h"
+#include "algorithms/edge_contraction.h"
 #include "algorithms/fine_normals.h"
 #include "algorithms/signed_sets.h"
 #include "base/disjoint_sets.h"
@@ -47,13 +45,7 @@ constexpr int joint_rings = 5;
 /// mean is shorter than `most_mean`: a closed surface without joints has 0, half a sphere 0.5.
 constexpr double body_share = 0.1, most_mean = 0.3;
 
-/// Two neighbours in L.
-struct Edge {
-  int low, high;
-  double alike;  ///< -1 to 1; positive if their normals have the same sign, larger if that is more certain
-};
-
-Edge edgeBetween(const Points& positions, const Points& normals, int low, int high) {
+SignedEdge edgeBetween(const Points& positions, const Points& normals, int low, int high) {
   const Eigen::RowVector3d a = normals.row(low), b = normals.row(high);
   const double cosine = a.dot(b);
   if (std::abs(cosine) >= smooth_cosine) return {low, high, cosine};
@@ -63,8 +55,8 @@ Edge edgeBetween(const Points& positions, const Points& normals, int low, int hi
   return {low, high, crease_share * (std::abs(reflected) > std::abs(cosine) ? reflected : cosine)};
 }
 
-std::vector<Edge> edgesOf(const Laplacian& laplacian, const Points& normals) {
-  std::vector<Edge> edges;
+std::vector<SignedEdge> edgesOf(const Laplacian& laplacian, const Points& normals) {
+  std::vector<SignedEdge> edges;
   edges.reserve(static_cast<std::size_t>(laplacian.L.nonZeros()) / 2);
   for (int j = 0; j < laplacian.L.cols(); ++j) {
     for (SparseMatrix::InnerIterator entry(laplacian.L, j); entry && entry.row() < j; ++entry)
@@ -73,63 +65,6 @@ std::vector<Edge> edgesOf(const Laplacian& laplacian, const Points& normals) {
   }
   return edges;
 }
-
-/// Joins all sets that edges connect, the most certain pair first. The certainty of a pair is the sum over all edges
-/// between its two sets, so a few wrong edges do not matter (greedy additive edge contraction, Keuper et al. 2015).
-class Contraction {
- public:
-  Contraction(const std::vector<Edge>& edges, SignedSets& sets) : sets_(sets), alike_(sets.size()) {
-    for (const Edge& edge : edges) {
-      alike_[edge.low][edge.high] = edge.alike;
-      alike_[edge.high][edge.low] = edge.alike;
-    }
-    for (int a = 0; a < static_cast<int>(alike_.size()); ++a)
-      for (const auto& [b, alike] : alike_[a])
-        if (a < b) queue_.push({std::abs(alike), a, b});
-  }
-
-  void run(const Workers& workers) {
-    // Pairs of sets between two calls of `progress`.
-    constexpr std::size_t between_reports = 65536;
-    for (std::size_t count = 0; !queue_.empty(); ++count) {
-      if (count % between_reports == 0)
-        workers.report("orient", std::min(1.0, static_cast<double>(joined_) / static_cast<double>(alike_.size())));
-      const auto [certainty, a, b] = queue_.top();
-      queue_.pop();
-      const auto found = alike_[a].find(b);
-      if (found != alike_[a].end() && std::abs(found->second) == certainty) contract(a, b, found->second);
-    }
-  }
-
- private:
-  struct Pair {
-    double certainty;
-    int a, b;
-
-    friend bool operator<(const Pair& p, const Pair& q) {
-      return std::tie(p.certainty, q.a, q.b) < std::tie(q.certainty, p.a, p.b);
-    }
-  };
-
-  void contract(int a, int b, double alike) {
-    ++joined_;
-    if (alike_[a].size() < alike_[b].size()) std::swap(a, b);
-    sets_.unite(a, b, alike < 0);
-    alike_[a].erase(b);
-    for (const auto& [c, weight] : std::exchange(alike_[b], {})) {
-      if (c == a) continue;
-      alike_[c].erase(b);
-      const double sum = alike_[a][c] += alike < 0 ? -weight : weight;
-      alike_[c][a] = sum;
-      queue_.push({std::abs(sum), std::min(a, c), std::max(a, c)});
-    }
-  }
-
-  SignedSets& sets_;
-  std::vector<std::map<int, double>> alike_;  ///< by root of a set: the sums to its neighbouring sets
-  std::priority_queue<Pair> queue_;
-  std::size_t joined_ = 0;
-};
 
 /// For each part of the surface, how its normals point.
 struct Sides {
@@ -187,22 +122,23 @@ std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components&
   return inward;
 }
 
-bool disagrees(const Edge& edge, const Points& normals, const Points& positions) {
+bool disagrees(const SignedEdge& edge, const Points& normals, const Points& positions) {
   return edgeBetween(positions, normals, edge.low, edge.high).alike < 0;
 }
 
 /// The parts of components outside of joints and `joint_rings` rings around them.
 /// @param joint N; 1 at points whose normals disagree with a neighbour's; on return 1 at all points left out
-Components partsBeside(const Laplacian& laplacian, const std::vector<Edge>& edges, std::vector<std::uint8_t>& joint) {
+Components partsBeside(const Laplacian& laplacian, const std::vector<SignedEdge>& edges,
+                       std::vector<std::uint8_t>& joint) {
   for (int ring = 0; ring < joint_rings; ++ring) {
     const std::vector<std::uint8_t> core = joint;
-    for (const Edge& edge : edges) {
+    for (const SignedEdge& edge : edges) {
       if (core[edge.low] != 0) joint[edge.high] = 1;
       if (core[edge.high] != 0) joint[edge.low] = 1;
     }
   }
   DisjointSets sets(std::ssize(joint));
-  for (const Edge& edge : edges)
+  for (const SignedEdge& edge : edges)
     if (joint[edge.low] == 0 && joint[edge.high] == 0) sets.unite(edge.low, edge.high);
   Components parts;
   parts.of.assign(joint.size(), -1);
@@ -217,13 +153,13 @@ Components partsBeside(const Laplacian& laplacian, const std::vector<Edge>& edge
 
 /// Gives the normals of joints the sign of their neighbours, ring by ring from the outside.
 /// @param joint 1 at points without a sign; on return 0 at those that got one
-void settleJoints(const Laplacian& laplacian, const std::vector<Edge>& edges, std::vector<std::uint8_t>& joint,
+void settleJoints(const Laplacian& laplacian, const std::vector<SignedEdge>& edges, std::vector<std::uint8_t>& joint,
                   Points& normals) {
   VectorXd alike(normals.rows());
   for (bool settles = true; settles;) {
     settles = false;
     alike.setZero();
-    for (const Edge& edge : edges) {
+    for (const SignedEdge& edge : edges) {
       if (joint[edge.low] == joint[edge.high]) continue;
       const int open = joint[edge.low] != 0 ? edge.low : edge.high;
       alike[open] += edgeBetween(laplacian.positions, normals, edge.low, edge.high).alike;
@@ -239,10 +175,10 @@ void settleJoints(const Laplacian& laplacian, const std::vector<Edge>& edges, st
 
 /// Separates bodies that touch. They are one component, in which one is inside out and some neighbours disagree. A part
 /// that these joints cut off and that is closed otherwise is oriented outwards.
-void turnBodies(const Laplacian& laplacian, const std::vector<Edge>& edges, Points& normals) {
+void turnBodies(const Laplacian& laplacian, const std::vector<SignedEdge>& edges, Points& normals) {
   std::vector<std::uint8_t> joint(static_cast<std::size_t>(normals.rows()), 0);
   bool has_joint = false;
-  for (const Edge& edge : edges) {
+  for (const SignedEdge& edge : edges) {
     if (!disagrees(edge, normals, laplacian.positions)) continue;
     joint[edge.low] = joint[edge.high] = 1;
     has_joint = true;
@@ -278,14 +214,15 @@ void turnOutwards(const Laplacian& laplacian, const Eigen::Vector3d* up, Points&
 void orientAlike(const Laplacian& laplacian, const OrientationOptions& options, Points& normals,
                  OrientationReport& report) {
   const Workers workers(1, options.progress);
-  const std::vector<Edge> edges = edgesOf(laplacian, normals);
+  const std::vector<SignedEdge> edges = edgesOf(laplacian, normals);
   SignedSets sets(static_cast<int>(normals.rows()));
-  Contraction(edges, sets).run(workers);
+  contractEdges(edges, sets, workers);
   for (int i = 0; i < sets.size(); ++i)
     if (sets.isTurned(i)) normals.row(i) *= -1;
   turnOutwards(laplacian, options.up, normals, report);
   turnBodies(laplacian, edges, normals);
-  for (const Edge& edge : edges) report.disagreeing_edges += disagrees(edge, normals, laplacian.positions) ? 1 : 0;
+  for (const SignedEdge& edge : edges)
+    report.disagreeing_edges += disagrees(edge, normals, laplacian.positions) ? 1 : 0;
 }
 
 }  // namespace

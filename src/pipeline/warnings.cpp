@@ -13,9 +13,8 @@ namespace {
 /// If more than this share of the active points has a thick neighbourhood, a warning says so: 27 real clouds have at
 /// most 0.19, cables 9 spacings around 0.56.
 constexpr double many_thick = 0.25;
-/// If thick neighbourhoods of fewer points carry more than this share of the area, a warning says so: 0.13 where 2 % of
-/// the points of an airborne scan are trees, 0.17 on a real one with 40 %, at most 0.10 on surfaces (a coarse statue).
-/// docs/rejected.md has what does not separate them.
+/// If thick neighbourhoods of fewer points carry more than this share of the area, a warning says so: 0.12 to 0.25
+/// where 2 to 5 % of a simulated airborne scan are crowns of trees, 0.15 on a real one, at most 0.09 on surfaces.
 constexpr double much_thick_area = 0.11;
 /// If lengthened edges add more than this share of the area, a warning says so; less is invisible in a plot.
 constexpr double much_area = 1e-3;
@@ -69,8 +68,8 @@ std::vector<std::string> warnings(const Report& report) {
   add(!are_many_thick && report.thick_area > much_thick_area * report.area,
       percent(report.thick_area / report.area) + " of the area belongs to " + count(report.thick_neighborhoods) +
           " of " + count(report.points) +
-          " points that fill volumes, such as vegetation, or hover over the surface: leave them out by class or height "
-          "before the build (--where of the command, where of read() in Python, select() in C++)");
+          " points, which fill volumes, as vegetation does over the ground: areas and distances may be far off; leave "
+          "such points out by class or height (--where of the command, where of read() in Python, select() in C++)");
   addSparseImage(report.pixel_fill, all);
   return all;
 }

@@ -94,7 +94,7 @@ TEST(Warnings, TellOfVegetationOverTheGround) {
     EXPECT_LT(bare.thick_area, 0.01 * bare.area);
     const Report grown = pointCloudLaplacian(planeWithCrowns(16, seed)).report;  // 5 % of the points
     EXPECT_GT(grown.area, 1.3 * bare.area);
-    EXPECT_TRUE(has(onlyOf(warnings(grown)), "such as vegetation"));
+    EXPECT_TRUE(has(onlyOf(warnings(grown)), "fill volumes, as vegetation"));
   }
 }
 
