@@ -79,7 +79,7 @@ std::vector<int> sampleRegions(const Points& points, int most) {
   const PowerOfTwo scale = measureScaling(Points(points(some, Eigen::all)), status, Workers(1, {})).toScaled();
   std::vector<Region> balls;
   for (std::size_t b = 0; b < ball_count; ++b) {
-    balls.push_back({points.row(some[(2 * b + 1) * some.size() / (2 * ball_count)]), scale});
+    balls.push_back({points.row(some[(2 * b + 1) * some.size() / (2 * ball_count)]), scale, 0, {}});
     chooseRadius(points, some, stride, share, balls.back());
   }
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
