@@ -37,6 +37,10 @@ RowStore::RowStore(std::filesystem::path folder, std::int64_t points) : folder_(
     if (number < 0) refuseErrno(folder_, "create a file of rows", errno);
     ::unlink(name.c_str());
     blocks_.emplace_back(::fdopen(number, "w+b"), &std::fclose);
+    if (blocks_.back() != nullptr) continue;
+    const int error = errno;
+    ::close(number);
+    refuseErrno(folder_, "create a file of rows", error);
   }
 }
 

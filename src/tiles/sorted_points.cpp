@@ -28,14 +28,6 @@ constexpr std::size_t batch_size = std::size_t{1} << 20;  // points that are sor
   throw IoError(folder.string() + ": cannot " + what + " the file of sorted points: " + std::strerror(errno));
 }
 
-int openWithoutName(const std::filesystem::path& folder) {
-  std::string name = (folder / ".tufted-points-XXXXXX").string();
-  const int file = ::mkstemp(name.data());
-  if (file < 0) refuse(folder, "create");
-  ::unlink(name.c_str());
-  return file;
-}
-
 /// Calls visit(point, scaled point, its place on the curve, its number) for all points that take part.
 template <class Visit>
 void forPlaced(const PointSource& source, const Scaling& scaling, const Visit& visit) {
@@ -97,10 +89,17 @@ void writeAt(int file, const std::filesystem::path& folder, const StoredPoint* p
 }  // namespace
 
 SortedPoints::SortedPoints(const PointSource& source, const Scaling& scaling, const std::filesystem::path& folder)
-    : folder_(folder), file_(openWithoutName(folder)), cells_(write(source, scaling)) {}
+    : folder_(folder), file_(folder), cells_(write(source, scaling)) {}
 
-SortedPoints::~SortedPoints() {
-  ::close(file_);
+SortedPoints::File::File(const std::filesystem::path& folder) {
+  std::string name = (folder / ".tufted-points-XXXXXX").string();
+  number_ = ::mkstemp(name.data());
+  if (number_ < 0) refuse(folder, "create");
+  ::unlink(name.c_str());
+}
+
+SortedPoints::File::~File() {
+  ::close(number_);
 }
 
 Cells SortedPoints::write(const PointSource& source, const Scaling& scaling) {
@@ -121,7 +120,7 @@ Cells SortedPoints::write(const PointSource& source, const Scaling& scaling) {
       const int cell = batch[i].first;
       run.clear();
       for (; i < batch.size() && batch[i].first == cell; ++i) run.push_back(batch[i].second);
-      writeAt(file_, folder_, run.data(), run.size(), next[cell]);
+      writeAt(file_.number(), folder_, run.data(), run.size(), next[cell]);
       next[cell] += std::ssize(run);
     }
     batch.clear();
@@ -147,7 +146,7 @@ void SortedPoints::read(int first, int last, std::vector<StoredPoint>& points) c
   std::size_t left = (points.size() - before) * sizeof(StoredPoint);
   auto offset = static_cast<off_t>(cells_.begin(first) * static_cast<std::int64_t>(sizeof(StoredPoint)));
   while (left > 0) {
-    const ssize_t got = ::pread(file_, bytes, left, offset);
+    const ssize_t got = ::pread(file_.number(), bytes, left, offset);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) refuse(folder_, "read");
     bytes += got, offset += got, left -= static_cast<std::size_t>(got);

@@ -22,19 +22,30 @@ class SortedPoints {
  public:
   /// Reads the source in two passes. @throws IoError naming `folder` if the file cannot be written
   SortedPoints(const PointSource& source, const Scaling& scaling, const std::filesystem::path& folder);
-  ~SortedPoints();
-  SortedPoints(const SortedPoints&) = delete;
-  SortedPoints& operator=(const SortedPoints&) = delete;
 
   const Cells& cells() const { return cells_; }
   /// Appends the points of the cells [first, last), those of each cell in the order of the source.
   void read(int first, int last, std::vector<StoredPoint>& points) const;
 
  private:
+  /// A file without a name.
+  class File {
+   public:
+    explicit File(const std::filesystem::path& folder);
+    ~File();
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+
+    int number() const { return number_; }
+
+   private:
+    int number_;
+  };
+
   Cells write(const PointSource& source, const Scaling& scaling);
 
   std::filesystem::path folder_;
-  int file_;
+  File file_;
   Cells cells_;
 };
 

@@ -150,9 +150,7 @@ void Tile::findCertainStars(const SurfaceStars& built, const RankedCloud& cloud)
     for (end = p; end < cloud.size() && cell_by_rank_[end] == cell_by_rank_[p]; ++end)
       reach = std::max(reach, built.support.reach[end]);
     if (holdsAround(cells_.box(cell_by_rank_[p]), reach)) continue;
-    for (int q = p; q < end; ++q) {
-      is_certain_[q] = holdsAround(boxOf(cloud, q), built.support.reach[q]) ? 1 : 0;
-    }
+    for (int q = p; q < end; ++q) is_certain_[q] = holdsAround(boxOf(cloud, q), built.support.reach[q]) ? 1 : 0;
   }
 }
 
