@@ -41,7 +41,6 @@ struct Report {
   std::int64_t isolated_by_sheets = 0;   ///< points without a star because nearly all neighbours lie on other sheets
   std::int64_t thick_neighborhoods = 0;  ///< neighbourhoods whose smallest variance is above half of the middle one:
                                          ///< thin bodies, volumes, strong noise
-  double thick_area = 0;                 ///< sum of M at the points of thick neighbourhoods, length^2
   std::int64_t outliers = 0;             ///< points without a star, see CloudSteps::isolate_outliers
   std::int64_t denoised = 0;             ///< points moved onto the surface, see CloudSteps::denoise
   /// Median of Laplacian::noise over the points that were moved, in the caller's unit; 0 if none was.
@@ -112,7 +111,6 @@ void visitNumbers(AnyReport& report, const Visit& visit) {
   visit("split_neighborhoods", report.split_neighborhoods);
   visit("isolated_by_sheets", report.isolated_by_sheets);
   visit("thick_neighborhoods", report.thick_neighborhoods);
-  visit("thick_area", report.thick_area);
   visit("outliers", report.outliers);
   visit("denoised", report.denoised);
   visit("noise", report.noise);

@@ -93,8 +93,6 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   built.support.normals = {};
   release(built.support.fit_radius);
   release(built.support.isolated);
-  const Buffer<int> thick = thickPoints(built.support.thick, cloud.input_index);
-  release(built.support.thick);
   clock.finish("boundary", 0);
 
   // The union of all stars, glued to its tufted cover (Algorithm 1), measured and mollified (Section 4.5), flipped to
@@ -117,7 +115,6 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
     finishFromWholeCover(std::move(built), cloud, options, workers, clock, result);
   }
   setOwnAreas(own, input_index, exponent, result);
-  for (const int i : thick) result.report.thick_area += result.M[i];
   setTangents(workers, result);
   clock.finish("tangents", static_cast<std::size_t>(result.frames.tangents.size()) * sizeof(double));
   workers.report("done", 1);

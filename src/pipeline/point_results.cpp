@@ -89,11 +89,4 @@ void setOwnAreas(const RawBuffer<double>& own, const Buffer<int>& input_index, i
   if (result.report.star_masses > 0) result.report.area = result.M.sum();
 }
 
-Buffer<int> thickPoints(const RawBuffer<std::uint8_t>& thick, const Buffer<int>& input_index) {
-  Buffer<int> points;
-  for (std::size_t p = 0; p < thick.size(); ++p)
-    if (thick[p] != 0) points.push_back(input_index[p]);
-  return points;
-}
-
 }  // namespace tufted

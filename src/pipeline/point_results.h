@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
@@ -35,9 +33,5 @@ void setTangents(const Workers& workers, Laplacian& result);
 /// @param own by rank, in units of 4^exponent of the caller's; may be empty
 /// @param input_index the caller's index of each rank
 void setOwnAreas(const RawBuffer<double>& own, const Buffer<int>& input_index, int exponent, Laplacian& result);
-
-/// The caller's indices of the points of thick neighbourhoods.
-/// @param thick by rank, see StarSupport::thick
-Buffer<int> thickPoints(const RawBuffer<std::uint8_t>& thick, const Buffer<int>& input_index);
 
 }  // namespace tufted

@@ -13,9 +13,6 @@ namespace {
 /// If more than this share of the active points has a thick neighbourhood, a warning says so: 27 real clouds have at
 /// most 0.19, cables 9 spacings around 0.56.
 constexpr double many_thick = 0.25;
-/// If thick neighbourhoods of fewer points carry more than this share of the area, a warning says so: 0.12 to 0.25
-/// where 2 to 5 % of a simulated airborne scan are crowns of trees, 0.15 on a real one, at most 0.09 on surfaces.
-constexpr double much_thick_area = 0.11;
 /// If lengthened edges add more than this share of the area, a warning says so; less is invisible in a plot.
 constexpr double much_area = 1e-3;
 
@@ -60,16 +57,10 @@ std::vector<std::string> warnings(const Report& report) {
   add(report.neighbors_clamped,
       "the neighbourhood of each point is the whole cloud, so that areas mean little: fewer neighbours than " +
           count(report.neighbors) + " may do better");
-  const bool are_many_thick =
-      static_cast<double>(report.thick_neighborhoods) > many_thick * static_cast<double>(report.active);
-  add(are_many_thick, "the neighbourhoods of " + count(report.thick_neighborhoods) + " of " + count(report.points) +
-                          " points are as thick as wide, as in volumes and on cables that " + count(report.neighbors) +
-                          " neighbours reach around: areas may be far off, and fewer neighbours may do better");
-  add(!are_many_thick && report.thick_area > much_thick_area * report.area,
-      percent(report.thick_area / report.area) + " of the area belongs to " + count(report.thick_neighborhoods) +
-          " of " + count(report.points) +
-          " points, which fill volumes, as vegetation does over the ground: areas and distances may be far off; leave "
-          "such points out by class or height (--where of the command, where of read() in Python, select() in C++)");
+  add(static_cast<double>(report.thick_neighborhoods) > many_thick * static_cast<double>(report.active),
+      "the neighbourhoods of " + count(report.thick_neighborhoods) + " of " + count(report.points) +
+          " points are as thick as wide, as in volumes and on cables that " + count(report.neighbors) +
+          " neighbours reach around: areas may be far off, and fewer neighbours may do better");
   addSparseImage(report.pixel_fill, all);
   return all;
 }

@@ -86,8 +86,7 @@ class StarBuilder {
     state.split_neighborhoods += neighborhood.split ? 1 : 0;
     state.isolated += neighborhood.isolated ? 1 : 0;
     const Eigen::Vector3d& variance = neighborhood.axes.variance;
-    support_.thick[p] = variance[0] > thick_share * variance[1] && !liesOnOneLine(neighborhood.axes) ? 1 : 0;
-    state.thick += support_.thick[p];
+    state.thick += variance[0] > thick_share * variance[1] && !liesOnOneLine(neighborhood.axes) ? 1 : 0;
     if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0))
       neighborhood.axes.normal = source_.normals.row(p);
     support_.normals.row(p) = neighborhood.axes.normal;
@@ -197,7 +196,7 @@ std::size_t Stars::bytes() const {
 }
 
 std::size_t StarSupport::bytes() const {
-  return bytesOf(radius) + bytesOf(fit_radius) + bytesOf(reach) + bytesOf(isolated) + bytesOf(thick) + normals.bytes();
+  return bytesOf(radius) + bytesOf(fit_radius) + bytesOf(reach) + bytesOf(isolated) + normals.bytes();
 }
 
 BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
@@ -207,7 +206,6 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
   Stars& stars = built.stars;
   StarSupport& support = built.support;
   makeRoom(n, built);
-  support.thick.resize(n);
 
   Stopwatch wall;
   const std::int64_t blocks = (n + star_block - 1) / star_block;

@@ -41,8 +41,7 @@ struct StarSupport {
   Buffer<double> boundary_reach;
   /// n, 1 for points without a star: outliers, and points whose neighbours lie on other sheets
   RawBuffer<std::uint8_t> isolated;
-  RawBuffer<std::uint8_t> thick;  ///< n, 1 for thick neighbourhoods; 0 values for a depth image
-  PointBuffer normals;            ///< n x 3
+  PointBuffer normals;  ///< n x 3
 
   std::size_t bytes() const;
 };

@@ -66,38 +66,6 @@ TEST(Warnings, TellOfVolumesAndNotOfCreasesNorNoise) {
   EXPECT_EQ(onlyOf(warnings(pointCloudLaplacian(noisy).report)), "");
 }
 
-/// A plane of 20,000 points with balls of 60 points above it, as wide as 18 spacings, like crowns of trees.
-Points planeWithCrowns(int crowns, std::uint64_t seed) {
-  constexpr int n = 20000;
-  shapes::Random random(seed);
-  Points points(n, 3);
-  const double width = std::sqrt(n);
-  const auto point = [&](double size) {
-    return Eigen::RowVector3d(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
-  };
-  for (int i = 0; i < n; ++i) points.row(i) << random.uniform(0, width), random.uniform(0, width), 0;
-  for (int c = 0; c < crowns; ++c) {
-    const Eigen::RowVector3d middle(random.uniform(0, width), random.uniform(0, width), 14);
-    for (int i = 60 * c; i < 60 * (c + 1); ++i) {
-      Eigen::RowVector3d inside = point(9);
-      while (inside.norm() > 9) inside = point(9);
-      points.row(i) = middle + inside;
-    }
-  }
-  return points;
-}
-
-TEST(Warnings, TellOfVegetationOverTheGround) {
-  for (const int seed : {101, 102}) {
-    const Report bare = pointCloudLaplacian(planeWithCrowns(0, seed)).report;
-    EXPECT_EQ(onlyOf(warnings(bare)), "");
-    EXPECT_LT(bare.thick_area, 0.01 * bare.area);
-    const Report grown = pointCloudLaplacian(planeWithCrowns(16, seed)).report;  // 5 % of the points
-    EXPECT_GT(grown.area, 1.3 * bare.area);
-    EXPECT_TRUE(has(onlyOf(warnings(grown)), "fill volumes, as vegetation"));
-  }
-}
-
 TEST(Warnings, TellOfImagesWhosePixelsAreMissing) {
   constexpr int width = 80, height = 60;
   shapes::Random random(104);
