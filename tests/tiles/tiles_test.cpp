@@ -201,7 +201,9 @@ TEST(Tiles, RefuseWhatTheyCannotBuild) {
     laplacianByTiles(sourceOf(points), options, [](const TileRows&) {});
   };
   const auto folder = std::filesystem::temp_directory_path();
-  EXPECT_THROW(build({.folder = folder}), InvalidInput);  // Preset::scan moves noisy points
+  TileOptions denoised;  // Preset::scan moves noisy points
+  denoised.folder = folder;
+  EXPECT_THROW(build(denoised), InvalidInput);
   EXPECT_THROW(build({.cloud = one(Preset::clean), .tiles = -1, .folder = folder}), InvalidInput);
   EXPECT_THROW(build({.cloud = one(Preset::clean), .memory = 1e6, .folder = folder}), InvalidInput);
   EXPECT_THROW(build({.cloud = one(Preset::clean), .folder = folder / "missing"}), IoError);
