@@ -32,8 +32,8 @@ std::vector<std::string> tileFiles();
 ///   normals.npy         float64, N x 3, of arbitrary sign; 0 for points that are not finite
 ///   file_row.npy        int32, N, TileSourceText::rows, if not empty
 ///   report.json         the TileReport, the options, and as `files` the names of all files of this result
-/// While it runs, files without names in `dir` take 32 bytes per point and about 180 bytes per row. All files appear
-/// together, as with writeLaplacian().
+/// While it runs, files without names in `dir` take 32 bytes per point and about 180 bytes per row that is built. All
+/// files appear together, as with writeLaplacian().
 /// @param options `folder` is not used
 /// @return the same as laplacianByTiles()
 /// @throws as laplacianByTiles(); InvalidInput if `rows` of `text` has another size than the points; IoError naming the
