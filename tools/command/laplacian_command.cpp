@@ -119,6 +119,7 @@ With --memory the rows of a cloud are those of the whole, but built and written 
   M.npy, status.npy, representative.npy, boundary.npy
                       as above, but representative with int64 indices
   normals.npy         N x 3, the sign of each normal arbitrary
+  file_row.npy        as above
 There are no components, no cover, no copies of the points, and no noise is removed.)";
 
 struct Settings {
