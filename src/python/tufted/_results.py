@@ -23,9 +23,13 @@ class Signature(np.ndarray):
     """The N x T array of Surface.hks() or Surface.wks(), which knows where its columns were computed.
 
     times: T times of hks(), length^2. energies, width: T energies of wks() and their width, natural logarithms of
-    eigenvalues. Those of the other kind are None, and all are None on parts and on results of arithmetic.
+    eigenvalues. Those of the other kind are None, and all are None on parts. Copies and pickles lose the times and
+    energies, too, and results of arithmetic, sums and maxima are plain arrays and numbers.
     """
     times = energies = width = None
+
+    def __array_wrap__(self, array, context=None, return_scalar=False):
+        return np.asarray(array)[()]
 
 
 def signature(values, **where):
