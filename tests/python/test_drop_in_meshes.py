@@ -78,6 +78,16 @@ def test_areas_and_the_cotan_laplacian(ball):
     np.testing.assert_allclose(L.toarray(), ours.toarray(), atol=1e-6)
 
 
+@pytest.mark.parametrize("exponent", [-520, -266, 266, 500])
+def test_areas_and_the_cotan_laplacian_in_any_unit(exponent):
+    """Squares of areas would vanish or overflow; a power of two changes no digit."""
+    V, F = torus_mesh(12, 8)
+    scaled = np.ldexp(V, exponent)
+    for areas in (pp3d.face_areas, pp3d.vertex_areas):
+        np.testing.assert_array_equal(areas(scaled, F), np.ldexp(areas(V, F), 2 * exponent))
+    assert (pp3d.cotan_laplacian(scaled, F) != pp3d.cotan_laplacian(V, F)).nnz == 0
+
+
 def test_edges_are_those_of_the_faces(ball):
     V, F = ball
     E = pp3d.edges(V, F)

@@ -6,7 +6,7 @@ import scipy.sparse
 
 from . import _arguments as check
 from . import _tufted
-from ._shape import lumped_areas, triangle_areas
+from ._shape import lumped_areas, scaled, triangle_areas
 from ._tufted import InvalidInput
 
 
@@ -84,25 +84,27 @@ def _write(filename, points, polygons, uv, corners):
 
 def face_areas(V, F):
     """The areas of triangles F (F x 3) with the corners V (N x 3): F values."""
-    return triangle_areas(*_triangles("face_areas", V, F))
+    points, faces, unit = _triangles("face_areas", V, F)
+    return triangle_areas(points, faces) * unit * unit
 
 
 def vertex_areas(V, F):
     """A third of the areas of the triangles F (F x 3) at each vertex of V (N x 3): N values."""
-    return lumped_areas(*_triangles("vertex_areas", V, F))
+    points, faces, unit = _triangles("vertex_areas", V, F)
+    return lumped_areas(points, faces) * unit * unit
 
 
 def cotan_laplacian(V, F, denom_eps=0.0):
     """The cotan Laplacian of the triangles as they are: N x N csr_matrix, positive semidefinite, without the guarantees
     of mesh_laplacian(). V: N x 3. F: F x 3. denom_eps: added to twice the area of a triangle where it is divided by.
     """
-    points, faces = _triangles("cotan_laplacian", V, F)
+    points, faces, unit = _triangles("cotan_laplacian", V, F)
     corners = [points[faces[:, k]] for k in range(3)]
     rows, columns, weights = [], [], []
     for k in range(3):
         first, second = (k + 1) % 3, (k + 2) % 3
         u, v = corners[first] - corners[k], corners[second] - corners[k]
-        sine = np.linalg.norm(np.cross(u, v), axis=1) + denom_eps
+        sine = np.linalg.norm(np.cross(u, v), axis=1) + denom_eps / unit / unit
         rows.append(faces[:, first])
         columns.append(faces[:, second])
         weights.append(np.einsum("ij,ij->i", u, v) / sine / 2)
@@ -121,7 +123,9 @@ def edges(V, F):
 
 
 def _triangles(function, V, F):
+    """Points in [-1, 1], triangles, and the unit of length of the points."""
     points = check.rows_of_three(function, "V", V)
     faces = check.triangles(function, "F", F)
     check.indices(function, "F", faces.reshape(-1), len(points), empty=True)
-    return points, faces
+    points, unit = scaled(points)
+    return points, faces, unit

@@ -247,8 +247,8 @@ def _compared(function, shapes, bases, descriptors, landmarks, weights):
         places = check.indices(function, "landmarks", pairs[:, side], len(shape), empty=True)
         outside = places[~basis.takes_part[places]]
         if outside.size:
-            raise InvalidInput(f"{function}: landmarks has {outside[0]}, a point of the {('source', 'target')[side]} that "
-                               "takes no part")
+            raise InvalidInput(f"{function}: landmarks has {outside[0]}, a point of the {('source', 'target')[side]} "
+                               "that takes no part")
         around = [basis.vectors @ (wave * basis.vectors[place][:, None]) for place in places]
         columns.append(np.hstack([given[side], *around]))
     weight = np.concatenate([np.sqrt(weight), np.ones(columns[0].shape[1] - count)])
