@@ -129,7 +129,7 @@ class Distances:
         return Path(*solver.through(self.representative[stops], bool(closed), progress))
 
     def _path_solver(self, function, progress):
-        """For paths in a class on a cloud those of triangles(), which do not overlap."""
+        """The solver of path(); for path_through() on a cloud, one on triangles(), which do not overlap."""
         laplacian = self._laplacian
         if function == "path_through" and self._faces is None:
             options = {"order": "angle", "seed": 0, "mollify": 0.0, "weld": False, "threads": self._solving["threads"]}

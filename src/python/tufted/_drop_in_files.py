@@ -36,10 +36,13 @@ def write_mesh(V, F, filename, UV_coords=None, UV_type=None):
 
     V: N x 3. F: F x D, or a list of lists of indices. filename: an existing file is replaced.
     UV_coords: U x 2 texture coordinates, for OBJ only. UV_type: whose they are: "per-vertex", "per-face", "per-corner".
+    Raises IoError if the file cannot be written.
     """
     points = check.rows_of_three("write_mesh", "V", V)
     polygons = [check.indices("write_mesh", "F", polygon, len(points)).tolist() for polygon in F]
     uv, corners = np.zeros((0, 2)), None
+    if UV_coords is not None and UV_type is None:  # potpourri3d would leave them out without a word
+        raise InvalidInput("write_mesh: UV_coords is given, must be None without UV_type")
     if UV_type is not None:
         counts = {"per-vertex": len(points), "per-face": len(polygons), "per-corner": sum(map(len, polygons))}
         if UV_type not in counts:
@@ -54,7 +57,7 @@ def write_mesh(V, F, filename, UV_coords=None, UV_type=None):
 
 def write_point_cloud(V, filename):
     """Writes points, N x 3, to an OBJ, PLY or OFF file, by the ending of its name filename; a file of that name is
-    replaced.
+    replaced. Raises IoError if it cannot be written.
     """
     _write(filename, check.rows_of_three("write_point_cloud", "V", V), [], np.zeros((0, 2)), None)
 
@@ -78,8 +81,7 @@ def _write(filename, points, polygons, uv, corners):
     else:
         raise InvalidInput(f"write_mesh: filename = {os.fspath(filename)!r}, must end in .obj"
                            + (" to hold UV_coords" if corners else ", .ply or .off"))
-    with open(filename, "w", encoding="ascii") as file:
-        file.write("\n".join([*lines, ""]))
+    check.write(filename, "\n".join([*lines, ""]).encode("ascii"))
 
 
 def face_areas(V, F):
@@ -117,9 +119,15 @@ def cotan_laplacian(V, F, denom_eps=0.0):
 def edges(V, F):
     """The edges of polygons F, each once with its lower index first, in ascending order: E x 2 int32. V: N x 3."""
     count = len(check.rows_of_three("edges", "V", V))
-    polygons = [check.indices("edges", "F", polygon, count) for polygon in F]
-    pairs = [np.stack([polygon, np.roll(polygon, -1)], axis=1) for polygon in polygons]
-    return np.unique(np.sort(np.concatenate([np.zeros((0, 2), np.int32), *pairs]), axis=1), axis=0)
+    if isinstance(F, np.ndarray) and F.ndim == 2:
+        polygons = [check.indices("edges", "F", F.reshape(-1), count, empty=True).reshape(F.shape)]
+    else:
+        polygons = [check.indices("edges", "F", polygon, count) for polygon in F]
+    pairs = [np.stack([each, np.roll(each, -1, axis=-1)], axis=-1).reshape(-1, 2) for each in polygons]
+    pairs = np.sort(np.concatenate([np.zeros((0, 2), np.int32), *pairs]), axis=1).astype(np.int64)
+    # A number for each pair, as numbers are sorted much faster than rows.
+    numbers = np.unique(pairs[:, 0] * count + pairs[:, 1])
+    return np.stack(np.divmod(numbers, max(count, 1)), axis=1).astype(np.int32)
 
 
 def _triangles(function, V, F):

@@ -108,7 +108,7 @@ class Figures:
         kinds = kind if isinstance(kind, dict) else dict.fromkeys(named, kind)
         fields = []
         for name, given in named.items():
-            given = check._array(function, "values", given)
+            given = check.array(function, "values", given)
             is_label = given.dtype.kind in "iub"
             table, _ = check.columns(function, "values", given.astype(float) if is_label else given, len(self))
             usual = "label" if is_label else "vector" if table.shape[1] == 3 else "scalar"

@@ -263,7 +263,7 @@ class Shape:
         """`fixed`, N booleans, as bytes; None stays None."""
         if fixed is None:
             return None
-        fixed = check._array(function, "fixed", fixed)
+        fixed = check.array(function, "fixed", fixed)
         if fixed.shape != (len(self),):
             raise InvalidInput(f"{function}: fixed has {fixed.size} values, must have {len(self)}, one per point")
         return np.ascontiguousarray(fixed.astype(bool), dtype=np.uint8)
