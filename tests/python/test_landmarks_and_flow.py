@@ -38,6 +38,15 @@ def test_ways_through_points_keep_their_class_on_clouds():
     np.testing.assert_array_equal(cloud.path_through([4000, stops[0]]).points, cloud.path_through([0, stops[0]]).points)
     with pytest.raises(tufted.InvalidInput, match="path_through: points has 1 indices"):
         cloud.path_through([5])
+    far = tufted.PointCloud(np.vstack([points, [[50, 50, 50]]]))
+    with pytest.raises(tufted.InvalidInput, match=r"path_through: points has 4000, must be corners of triangles\(\)"):
+        far.path_through([0, 4000])
+
+
+def test_ways_through_points_of_a_loaded_mesh_need_its_cover(mesh, tmp_path):
+    mesh.save(tmp_path)
+    with pytest.raises(tufted.InvalidInput, match="path_through: the cover is missing, must be saved: formats="):
+        tufted.load(tmp_path).path_through([0, 900])
 
 
 def test_the_conformal_mean_curvature_flow_makes_a_sphere():

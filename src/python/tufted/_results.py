@@ -1,10 +1,11 @@
 """Results of methods that return several values, or something to look at."""
 import html
-import os
 from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse
+
+from . import _arguments as check
 
 
 class TuftedWarning(UserWarning):
@@ -138,9 +139,8 @@ class Picture(NamedTuple):
     png: bytes
 
     def save(self, path):
-        """Writes the picture to a file. path: its name, which should end in .png."""
-        with open(os.fspath(path), "wb") as file:
-            file.write(self.png)
+        """Writes the picture to a file. path: its name, which should end in .png. Raises IoError if it cannot."""
+        check.write(path, self.png)
 
     def _repr_png_(self):
         return self.png
