@@ -118,8 +118,9 @@ class Distances:
         """Straightens a way through several points, which says on which side of handles and hills the path passes: no
         path near it is shorter. It need not pass the inner points. On a cloud it runs over triangles().
 
-        points: at least two indices, on a cloud of corners of triangles(). closed: whether the way leads back from the last to the first: a geodesic loop,
-        which keeps none of the points, and contracts to a single one where nothing holds it.
+        points: at least two indices, on a cloud of corners of triangles(). closed: whether the way leads back from the
+        last to the first: a geodesic loop, which keeps none of the points, and contracts to a single one where nothing
+        holds it.
         Returns points (K x 3; of a loop without the first one again) and the length along the surface. Raises
         InvalidInput if no path leads.
         """

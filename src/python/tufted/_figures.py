@@ -51,8 +51,9 @@ class Figures:
             raise InvalidInput(f"picture: range has the shape {' x '.join(map(str, ends.shape))}, must be 2")
         if pixels.shape != (2,):
             raise InvalidInput(f"picture: size = {size!r}, must be (width, height)")
+        background = check.text("picture", "background", background)
         with check.named("picture"):
-            return Picture(_tufted.picture(scene, look, pixels.tolist(), check.text("picture", "background", background),
+            return Picture(_tufted.picture(scene, look, pixels.tolist(), background,
                                            None if ends is None else ends[:, 0],
                                            None if isolines is None else bool(isolines), bool(light), bool(legend),
                                            self._solving["threads"]))
@@ -99,7 +100,8 @@ class Figures:
         with check.named(function, kind="kind"):
             scene = _tufted.Scene(name, self._points, faces, self._frame_parts()[0], fields, line)
         shown = -1 if not fields else 0
-        look = {"field": shown, "column": _column(function, fields, column), "color_map": "" if color_map is None else check.text(function, "color_map", color_map),
+        color_map = "" if color_map is None else check.text(function, "color_map", color_map)
+        look = {"field": shown, "column": _column(function, fields, column), "color_map": color_map,
                 "up": _axis(function, up), **_camera(function, camera)}
         return scene, look
 
