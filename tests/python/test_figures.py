@@ -109,6 +109,7 @@ def test_a_page_holds_all_fields(cloud, tmp_path):
     ({"range": 3}, "picture: range has the shape (), must be 2"),
     ({"range": [[0, 1], [2, 3]]}, "picture: range has the shape 2 x 2, must be 2"),
     ({"kind": {"height": "label"}}, "picture: kind has the name 'height', must be one of values"),
+    ({"kind": {"values": "label"}, "values": None}, "picture: kind has the name 'values', must be one of values"),
     ({"kind": 3}, "picture: kind is a int, must be a text"),
     ({"color_map": 3}, "picture: color_map is a int, must be a text"),
     ({"background": None}, "picture: background is a NoneType, must be a text"),

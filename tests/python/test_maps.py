@@ -207,6 +207,8 @@ def test_a_spectrum_at_hand_serves_signatures(meshes):
     (lambda a, b: tufted.point_maps(a, b, np.full((3, 3), np.nan)), "C has a value that is not finite"),
     (lambda a, b: tufted.point_maps(a, b, np.zeros((0, 0))), "point_maps: C has the shape 0 x 0, must be k x k"),
     (lambda a, b: tufted.point_maps(a, b, np.eye(3)[0]), "point_maps: C has the shape 3, must be k x k"),
+    (lambda a, b: tufted.point_maps(a, b, [[1, 2], [3]]), "point_maps: C is no array"),
+    (lambda a, b: tufted.zoom_out(a, b, [[1, 2], [3]]), "zoom_out: start is no array"),
     (lambda a, b: tufted.zoom_out(a, b, -np.ones(len(b), int)), "zoom_out: start has no index of at least 0"),
     (lambda a, b: tufted.zoom_out(a, tufted.Mesh(b.points, b.faces[:0]), np.eye(3)), "zoom_out: a shape has the area"),
     (lambda a, b: tufted.point_maps(tufted.Mesh(b.points, b.faces[:0]), b, np.eye(3)), "point_maps: a shape has the"),

@@ -88,7 +88,8 @@ class _MeshPlaces(OnSurface):
         """The signed distance by heat from a curve of vertices; other places count as the vertex they are nearest to.
         """
         indices = [int(vertices[weights.argmax()]) for vertices, weights in map(self._position, curve)]
-        return self._surface.signed_distance(indices, time_step=time_step)
+        with check.named(self._name, curve="curves"):
+            return self._surface.signed_distance(indices, time_step=time_step)
 
     def _signed(self, curve, time_step=VECTOR_STEP):
         """The signed distance from a curve: by heat if all its places are vertices, otherwise by marching with the

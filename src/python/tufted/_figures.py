@@ -92,6 +92,9 @@ class Figures:
 
     def _scene(self, function, values, kind, column, line, camera, up, color_map, title, own_fields=None):
         """The scene, and the options that pages and pictures share."""
+        names = values.keys() if isinstance(values, dict) else () if values is None else ("values",)
+        for name in kind.keys() - set(names) if isinstance(kind, dict) else ():
+            raise InvalidInput(f"{function}: kind has the name {name!r}, must be one of values")
         fields = own_fields() if own_fields else self._fields(function, values, kind)
         faces = np.zeros((0, 3), np.int32) if self._faces is None else self._faces
         line = np.zeros((0, 3)) if line is None else check.rows_of_three(function, "line",
@@ -110,8 +113,6 @@ class Figures:
             return []
         named = values if isinstance(values, dict) else {"values": values}
         kinds = kind if isinstance(kind, dict) else dict.fromkeys(named, kind)
-        for name in kinds.keys() - named.keys():
-            raise InvalidInput(f"{function}: kind has the name {name!r}, must be one of values")
         fields = []
         for name, given in named.items():
             given = check.array(function, "values", given)

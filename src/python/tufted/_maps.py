@@ -85,7 +85,7 @@ def zoom_out(source, target, start, *, k=100, step=1, samples=1000, progress=Non
     shapes = _shapes(name, source, target)
     k, step = check.whole(name, "k", k, 1), check.whole(name, "step", step, 1)
     samples = None if samples is None else max(check.whole(name, "samples", samples, 1), 2 * k)
-    progress, start = check.callback(name, progress), np.asarray(start)
+    progress, start = check.callback(name, progress), check.array(name, "start", start)
     first, second = bases = _bases(name, shapes, max(k, len(start) if start.ndim == 2 else 1), progress)
     k, points = min(k, len(first.values)), second.sample(samples)
     # Images are found among ten times as many points: a third of the spacing of the samples is near enough.
@@ -109,6 +109,7 @@ def point_maps(source, target, C, *, progress=None):
     isolated and non-finite points. Values on the source are carried to the target by values[to_source].
     """
     name = "point_maps"
+    C = check.array(name, "C", C)
     bases = _bases(name, _shapes(name, source, target), len(np.atleast_2d(C)), check.callback(name, progress))
     C = _matrix(name, "C", C, bases)
     first, second = bases
