@@ -38,10 +38,10 @@ struct TileRows {
 struct TileOptions {
   CloudOptions cloud =
       {};  ///< how rows are built; only `neighbors`, `steps`, `mollify`, `threads` and `progress` may be set
-  double memory = 4e9;  ///< bytes that may be taken, beside what the source takes; more points per tile fit in
+  double memory = 4e9;  ///< bytes that may be taken beside what the source takes; tiles get smaller with it
   int tiles = 0;        ///< number of tiles; 0: as few as fit in memory
   std::filesystem::path folder = ".";  ///< a folder with room for 32 bytes per point, in a file without a name
-  Progress progress = {};              ///< called between tiles
+  Progress progress = {};              ///< called for every batch of points that is read, and before every build
 };
 
 /// What laplacianByTiles() did.
@@ -65,8 +65,9 @@ struct TileReport {
 /// again with more points if that was beyond what it held.
 ///
 /// Not built: the cover, components, and positions moved out of noise (CloudSteps::denoise must be false).
-/// @param take called with the rows of each tile; if rows of a point are given again, they replace earlier ones. No
-/// rows are given for points that are not finite
+/// @param take called with the rows of each tile; if rows of a point are given again, they replace earlier ones. Rows
+/// are final when the function returns; before, those that depend on far stars may differ from the whole. No rows are
+/// given for points that are not finite
 /// @throws InvalidInput for options out of range, `cloud` with normals, neighborhoods, a structure or a viewpoint, with
 /// denoise, or with options of the paper that need a whole cover; if a tile with its margin does not fit in memory
 /// @throws IoError if the file in `folder` cannot be written

@@ -1,5 +1,6 @@
 #include "io/row_store.h"
 
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +14,8 @@
 namespace tufted::io {
 namespace {
 
-constexpr std::int64_t block_points = std::int64_t{1} << 19;  // points per file: their rows take 100 MB of memory
+constexpr std::int64_t least_points = std::int64_t{1} << 19;  // points per file: their rows take 100 MB of memory
+constexpr std::int64_t most_files = 256;                      // processes may often open 1,024
 
 /// A row in a file; its entries follow.
 struct RowHead {
@@ -30,8 +32,11 @@ struct Entry {
 
 }  // namespace
 
-RowStore::RowStore(std::filesystem::path folder, std::int64_t points) : folder_(std::move(folder)), points_(points) {
-  for (std::int64_t first = 0; first < points; first += block_points) {
+RowStore::RowStore(std::filesystem::path folder, std::int64_t points)
+    : folder_(std::move(folder)),
+      points_(points),
+      block_points_(std::max(least_points, (points + most_files - 1) / most_files)) {
+  for (std::int64_t first = 0; first < points; first += block_points_) {
     std::string name = (folder_ / ".rows-XXXXXX").string();
     const int number = ::mkstemp(name.data());
     if (number < 0) refuseErrno(folder_, "create a file of rows", errno);
@@ -58,7 +63,7 @@ void RowStore::add(const TileRows& rows) {
     head.mass = rows.M[row];
     for (int axis = 0; axis < 3; ++axis) head.normal[axis] = rows.normals(row, axis);
     head.status = rows.status[r], head.boundary = rows.boundary[r];
-    std::FILE* const file = blocks_[head.point / block_points].get();
+    std::FILE* const file = blocks_[head.point / block_points_].get();
     write(file, &head, sizeof head);
     entries.clear();
     for (std::int64_t e = begin; e < end; ++e) entries.push_back({rows.column[e], rows.value[e]});
@@ -77,8 +82,8 @@ std::vector<char> RowStore::readBlock(std::FILE* file) const {
 
 void RowStore::forBlocks(const std::function<void(const TileRows& rows)>& visit) {
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
-    const std::int64_t first = static_cast<std::int64_t>(block) * block_points;
-    const auto count = static_cast<std::size_t>(std::min(block_points, points_ - first));
+    const std::int64_t first = static_cast<std::int64_t>(block) * block_points_;
+    const auto count = static_cast<std::size_t>(std::min(block_points_, points_ - first));
     const std::vector<char> bytes = readBlock(blocks_[block].get());
     blocks_[block].reset();
     constexpr std::size_t none = SIZE_MAX;

@@ -33,7 +33,8 @@ class RowStore {
 
   std::filesystem::path folder_;
   std::int64_t points_;
-  std::vector<File> blocks_;  ///< of consecutive points each
+  std::int64_t block_points_;  ///< consecutive points per file
+  std::vector<File> blocks_;   ///< of consecutive points each
 };
 
 }  // namespace tufted::io

@@ -13,6 +13,7 @@
 #include "io/result_folder.h"
 #include "io/row_store.h"
 #include "io/staged_files.h"
+#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -45,7 +46,11 @@ class ArrayFile {
   io::OutputFile file_;
 };
 
-void writeArrays(io::RowStore& store, const TileReport& report, io::StagedFiles& files) {
+void askProgress(const TileOptions& options, double share) {
+  if (options.progress && !options.progress("write", share)) throw Cancelled("writeLaplacianByTiles: cancelled");
+}
+
+void writeArrays(io::RowStore& store, const TileReport& report, const TileOptions& options, io::StagedFiles& files) {
   const std::int64_t n = report.points;
   ArrayFile starts(files, "L_indptr", "<i8", {n + 1}), indices(files, "L_indices", "<i8", {report.nonzeros}),
       data(files, "L_data", "<f8", {report.nonzeros}), masses(files, "M", "<f8", {n}),
@@ -53,6 +58,7 @@ void writeArrays(io::RowStore& store, const TileReport& report, io::StagedFiles&
       boundary(files, "boundary", "|u1", {n}), normals(files, "normals", "<f8", {n, 3});
   std::int64_t before = 0;
   starts.append(&before, 1);
+  askProgress(options, 0);
   store.forBlocks([&](const TileRows& rows) {
     for (std::size_t r = 1; r < rows.begin.size(); ++r) {
       const std::int64_t end = before + rows.begin[r];
@@ -66,14 +72,21 @@ void writeArrays(io::RowStore& store, const TileReport& report, io::StagedFiles&
     representative.append(rows.representative);
     boundary.append(rows.boundary);
     normals.append(rows.normals.data(), static_cast<std::size_t>(rows.normals.size()));
+    askProgress(options, static_cast<double>(rows.point.back() + 1) / static_cast<double>(n));
   });
   for (ArrayFile* file : {&starts, &indices, &data, &masses, &status, &representative, &boundary, &normals})
     file->close();
 }
 
+void writeFileRows(const std::vector<int>& rows, io::StagedFiles& files) {
+  ArrayFile file(files, "file_row", "<i4", {std::ssize(rows)});
+  file.append(rows);
+  file.close();
+}
+
 std::string reportText(const TileReport& report, const TileOptions& options, const TileSourceText& text,
                        const std::vector<std::string>& files) {
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}};
   json["source"] = text.source;
   if (!text.selection.empty()) json["selection"] = nlohmann::ordered_json::parse(text.selection);
   json["kind"] = "cloud";
@@ -81,7 +94,11 @@ std::string reportText(const TileReport& report, const TileOptions& options, con
                      {"neighbors", options.cloud.neighbors},
                      {"denoise", options.cloud.steps.denoise},
                      {"mollify", options.cloud.mollify},
-                     {"memory", options.memory}};
+                     {"keep_noise", text.keep_noise}};
+  if (text.memory.empty())
+    json["options"]["memory"] = options.memory;
+  else
+    json["options"]["memory"] = text.memory;
   json["files"] = files;
   json["conventions"] = {{"sign", "L is positive semidefinite: L u = M f, L x = lambda M x"},
                          {"layout", "L by rows: L_indptr, L_indices and L_data, as of scipy.sparse.csr_matrix"},
@@ -112,12 +129,16 @@ std::vector<std::string> tileFiles() {
 
 TileReport writeLaplacianByTiles(const std::filesystem::path& dir, const PointSource& source,
                                  const TileOptions& options, const TileSourceText& text) {
+  if (!text.rows.empty() && std::ssize(text.rows) != source.size)
+    throw InvalidInput("writeLaplacianByTiles: rows has " + std::to_string(text.rows.size()) + " entries, must have " +
+                       std::to_string(source.size));
   io::StagedFiles files(dir);
   io::RowStore store(dir, source.size);
   TileOptions used = options;
   used.folder = dir;
   const TileReport report = laplacianByTiles(source, used, [&](const TileRows& rows) { store.add(rows); });
-  writeArrays(store, report, files);
+  writeArrays(store, report, options, files);
+  if (!text.rows.empty()) writeFileRows(text.rows, files);
   const io::OutputPath path = files.stage(io::report_name);
   const std::string json = reportText(report, options, text, files.names());
   io::OutputFile file(path);

@@ -26,7 +26,7 @@ struct CellBox {
 };
 
 /// The cells of a grid that hold points, in the order of the Morton curve, so that the points of consecutive cells are
-/// consecutive in rank. What lies in no cell holds no point.
+/// consecutive in rank.
 class Cells {
  public:
   /// @param edge of the cubes of the grid, in scaled coordinates
@@ -52,7 +52,7 @@ class Cells {
   }
 
  private:
-  static constexpr int fan = 8;           ///< boxes per box of the next level, as cells of the next coarser grid
+  static constexpr int fan = 8;           ///< runs of 8 cells that hold points have a box of the next level, and so on
   static constexpr double slack = 1e-12;  ///< radii and distances are rounded
 
   template <class Visit>

@@ -43,6 +43,20 @@ void checkOptions(const TileOptions& options) {
     refuse("gluing and order of the paper must be star and angle: others need a whole cover");
 }
 
+void ask(const TileOptions& options, const char* stage, double share) {
+  if (options.progress && !options.progress(stage, share)) throw Cancelled(std::string(function_name) + ": cancelled");
+}
+
+/// The points of a source, whose passes ask whether to go on.
+PointSource watched(const PointSource& source, const TileOptions& options) {
+  return {source.size, [&](const std::function<void(const PointsRef& batch)>& take) {
+            source.pass([&](const PointsRef& batch) {
+              ask(options, "sort", 0);
+              take(batch);
+            });
+          }};
+}
+
 /// The last cell of each tile, for tiles of about equally many points.
 std::vector<int> planTiles(const Cells& cells, std::int64_t tiles) {
   std::vector<int> ends;
@@ -61,7 +75,9 @@ class TileBuilds {
              const std::function<void(const TileRows&)>& take)
       : points_(points), scaling_(scaling), options_(options), take_(take) {
     const std::int64_t all = points.cells().begin(points.cells().size());
-    most_points_ = static_cast<std::int64_t>((options.memory - fixed_bytes) / point_bytes);
+    constexpr double much = 1e18;  // the points of so much memory can still be counted
+    const double most = (std::min(options.memory, much) - fixed_bytes) / point_bytes;
+    most_points_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(most));
     const double own = static_cast<double>(most_points_) * (all <= most_points_ ? 1 : own_share);
     const auto fitting = static_cast<std::int64_t>(std::ceil(static_cast<double>(all) / own));
     ends_ = planTiles(points.cells(), std::max<std::int64_t>(1, options.tiles > 0 ? options.tiles : fitting));
@@ -69,13 +85,12 @@ class TileBuilds {
 
   TileReport buildAll() {
     for (std::size_t number = 0; number < ends_.size(); ++number) {
-      if (options_.progress &&
-          !options_.progress("tiles", static_cast<double>(number) / static_cast<double>(ends_.size())))
-        throw Cancelled("laplacianByTiles: cancelled");
+      share_ = static_cast<double>(number) / static_cast<double>(ends_.size());
       TileTask task;
       for (int cell = number == 0 ? 0 : ends_[number - 1]; cell < ends_[number]; ++cell) task.own.push_back(cell);
       build(std::move(task));
     }
+    share_ = 1;
     // A star far away, such as that of an outlier, may have triangles with points of a tile that cannot know that.
     while (requireMore()) {
     }
@@ -116,29 +131,45 @@ class TileBuilds {
     return !again.empty();
   }
 
-  void build(TileTask task) {
-    while (!task.own.empty()) {
-      Tile tile(points_, scaling_, std::move(task));
+  void build(TileTask first) {
+    std::vector<TileTask> tasks = {std::move(first)};
+    while (!tasks.empty()) {
+      ask(options_, "tiles", share_);
+      TileTask task = std::move(tasks.back());
+      tasks.pop_back();
+      if (task.own.empty()) continue;
+      Tile tile(points_, scaling_, task);
       tile.holdMargin(options_.cloud);
-      if (tile.heldPoints() > most_points_) refuseLarge(tile.heldPoints());
+      if (tile.heldPoints() > most_points_) {
+        if (task.own.size() == 1) refuseLarge(tile.heldPoints());
+        halve(task, tasks);
+        continue;
+      }
       most_held_ = std::max(most_held_, tile.heldPoints());
       all_held_ += tile.heldPoints();
       ++builds_;
       tile.build(options_.cloud);
       for (const auto& pair : tile.farPairs())
         if (std::binary_search(tile.complete().begin(), tile.complete().end(), pair.first)) far_pairs_.push_back(pair);
+      tasks.push_back(tile.rest());
       const TileRows rows = tile.rows();
-      task = tile.rest();
       if (rows.point.empty()) continue;
       built_.push_back({{tile.complete(), task.required}, tile.neededCells(), countsOf(rows)});
       take_(rows);
     }
   }
 
+  /// Adds two tasks of half of the cells each. They begin with the usual margin, because most of what a tile lacked may
+  /// be for the other half.
+  static void halve(const TileTask& task, std::vector<TileTask>& tasks) {
+    const auto middle = task.own.begin() + std::ssize(task.own) / 2;
+    tasks.push_back({{middle, task.own.end()}, task.required});
+    tasks.push_back({{task.own.begin(), middle}, task.required});
+  }
+
   [[noreturn]] void refuseLarge(std::int64_t held) const {
-    refuse("a tile holds " + std::to_string(held) + " points with its margin, must be at most " +
-           std::to_string(most_points_) + " with memory = " + numberText(options_.memory) +
-           " bytes: give more memory, more tiles, or remove points far from the surface");
+    refuse("a single cell holds " + std::to_string(held) + " points with its margin, must be at most " +
+           std::to_string(most_points_) + ": give more memory, or leave out points far from the surface");
   }
 
   static TileReport countsOf(const TileRows& rows) {
@@ -177,6 +208,7 @@ class TileBuilds {
   const std::function<void(const TileRows&)>& take_;
   std::int64_t most_points_ = 0, most_held_ = 0, all_held_ = 0;
   int builds_ = 0;
+  double share_ = 0;  ///< of the tiles that are built
   std::vector<int> ends_;
   std::vector<Built> built_;
   std::vector<std::pair<int, int>> far_pairs_;  ///< see Tile::farPairs(), of all tiles
@@ -185,14 +217,19 @@ class TileBuilds {
 }  // namespace
 
 PointSource sourceOf(const PointsRef& points) {
-  return {points.rows(), [points](const auto& take) { take(points); }};
+  return {points.rows(), [points](const auto& take) {
+            constexpr Eigen::Index most = 1 << 20;  // a fraction of a second between batches
+            for (Eigen::Index first = 0; first < points.rows(); first += most)
+              take(points.middleRows(first, std::min(most, points.rows() - first)));
+          }};
 }
 
 TileReport laplacianByTiles(const PointSource& source, const TileOptions& options,
                             const std::function<void(const TileRows&)>& take) {
   checkOptions(options);
-  const Scaling scaling = measureScaling(source);
-  const SortedPoints points(source, scaling, options.folder);
+  const PointSource asking = watched(source, options);
+  const Scaling scaling = measureScaling(asking);
+  const SortedPoints points(asking, scaling, options.folder);
   TileReport report = TileBuilds(points, scaling, options, take).buildAll();
   report.points = source.size;
   report.not_finite = source.size - points.cells().begin(points.cells().size());

@@ -1,6 +1,6 @@
 #include "tiles/sorted_points.h"
 
-#include <fcntl.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,8 +20,9 @@ namespace {
 
 /// Mean number of points per cell at least. A margin is some cells wide, and searches look as far as 30 points or more.
 constexpr std::int64_t least_mean = 16;
-constexpr std::int64_t most_cells = 1 << 20;  // what is kept of each takes 100 bytes, and 100 points are a fine cell
-constexpr int finest_level = 16;              // cells of 2^-11 spreads, more than most_cells on a surface
+/// Each cell takes 100 bytes of memory; a billion points then have 1,000 per cell.
+constexpr std::int64_t most_cells = 1 << 20;
+constexpr int finest_level = 16;                          // cells of 2^-11 spreads, more than most_cells on a surface
 constexpr std::size_t batch_size = std::size_t{1} << 20;  // points that are sorted in memory, 50 MB
 
 [[noreturn]] void refuse(const std::filesystem::path& folder, const char* what) {

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "base/power_of_two.h"
 #include "cover/geometry.h"
 #include "direct/star_union.h"
 #include "stars/gaps.h"
 #include "stars/surface_stars.h"
+#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -34,9 +36,10 @@ CellBox boxOf(const RankedCloud& cloud, int p) {
   return CellBox::of(cloud.points.row(p).transpose().array());
 }
 
-void sortUnique(std::vector<int>& cells) {
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+template <class Value>
+void sortUnique(std::vector<Value>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 }  // namespace
@@ -121,7 +124,7 @@ void Tile::build(const CloudOptions& options) {
     incomplete_ = lacking_ = task_.own;
   } else {
     addFaceRadii();
-    findComplete();
+    findComplete(options.progress);
   }
 }
 
@@ -158,22 +161,29 @@ void Tile::findLacking(const SurfaceStars& built, const RankedCloud& cloud) {
   const Stars& stars = built.stars;
   lacks_.clear();
   std::vector<std::vector<int>> lacks(is_held_.size());  // what lets the stars of a cell be uncertain
+  std::vector<int> listed_for(is_held_.size(), -1);      // the last cell in whose list each cell was put
+  const auto list = [&](int other, int cell, std::vector<int>& cells) {
+    if (std::exchange(listed_for[other], cell) != cell) cells.push_back(other);
+  };
   for (int p = 0; p < cloud.size(); ++p) {
     if (is_certain_[p] != 0) continue;
-    is_sure_[cell_by_rank_[p]] = 0;
+    const int cell = cell_by_rank_[p];
+    is_sure_[cell] = 0;
     cells_.visit(boxOf(cloud, p), built.support.reach[p], [&](int other) {
-      if (is_held_[other] == 0) lacks[cell_by_rank_[p]].push_back(other);
+      if (is_held_[other] == 0) list(other, cell, lacks[cell]);
     });
   }
+  listed_for.assign(is_held_.size(), -1);
+  std::vector<int> needed_for(is_held_.size(), -1);  // the last cell whose stars depend on those of each cell
   const std::vector<std::uint8_t> has_certain = is_sure_;
   for (int p = 0, end = 0; p < cloud.size(); p = end) {
     const int cell = cell_by_rank_[p];
     std::vector<int> all;
     const auto need = [&](int other) {
-      if (is_held_[other] == 0) all.push_back(other);
-      if (has_certain[other] != 0) return;
+      if (has_certain[other] != 0 || std::exchange(needed_for[other], cell) == cell) return;
       is_sure_[cell] = 0;
-      all.insert(all.end(), lacks[other].begin(), lacks[other].end());
+      if (is_held_[other] == 0) list(other, cell, all);
+      for (const int lacking : lacks[other]) list(lacking, cell, all);
     };
     // A filtered star depends on the neighbourhoods of its link vertices, and whether these are isolated on those of
     // their neighbours.
@@ -184,7 +194,6 @@ void Tile::findLacking(const SurfaceStars& built, const RankedCloud& cloud) {
     for (end = p; end < cloud.size() && cell_by_rank_[end] == cell; ++end) {
       needNeighbors(end);
       for (int i = stars.offset[end]; i < stars.offset[end + 1]; ++i) needNeighbors(stars.link[i]);
-      if (is_sure_[cell] == 0) sortUnique(all);
     }
     if (is_sure_[cell] == 0) lacks_.emplace_back(cell, std::move(all));
   }
@@ -222,10 +231,12 @@ void Tile::findPairs(const SurfaceStars& built) {
     const int from = cell_by_rank_[p], to = cell_by_rank_[q];
     if (from == to || cells_.areNear(from, to)) return;
     if (is_own_[from] != 0) far_pairs_.emplace_back(from, to);
-    if (is_sure_[from] == 0) doubtful_pairs_.emplace_back(from, to);
+    if (is_sure_[from] == 0) doubtful_pairs_.emplace_back(to, from);
   };
   for (int p = 0; p < built.stars.size(); ++p)
     forEachTriangle(built.stars, p, [&](int a, int b) { add(p, a), add(p, b); });
+  sortUnique(far_pairs_);
+  sortUnique(doubtful_pairs_);
 }
 
 void Tile::addFaceRadii() {
@@ -247,44 +258,65 @@ void Tile::addFaceRadii() {
   for (std::size_t i = 0; i < radius.size(); ++i) dependence_[i] += 2 * radius[i];
 }
 
-void Tile::findComplete() {
-  std::vector<std::uint8_t> is_fit = is_sure_;
-  for (const auto& [from, to] : doubtful_pairs_) is_fit[to] = 0;
-  const bool has_required =
-      std::all_of(task_.required.begin(), task_.required.end(), [&](int cell) { return is_sure_[cell] != 0; });
-  std::vector<int> reached, needed;
-  for (const int own : task_.own) {
-    reached.clear();
-    needed.clear();
-    cells_.visit(cells_.box(own), dependence_[own], [&](int cell) { reached.push_back(cell); });
-    // Any star may have triangles with points of the cells beside its own.
-    for (const int cell : reached) cells_.visitNear(cell, [&](int near) { needed.push_back(near); });
-    sortUnique(needed);
-    const auto isFit = [&](int cell) { return is_fit[cell] != 0; };
-    const bool is_complete = has_required && std::all_of(needed.begin(), needed.end(), isFit);
-    (is_complete ? complete_ : incomplete_).push_back(own);
-    if (is_complete)
-      needed_.insert(needed_.end(), needed.begin(), needed.end());
-    else
-      for (const int cell : needed) addLacking(cell);
-    if (needed_.size() > 8 * is_own_.size()) sortUnique(needed_);
-  }
-  if (!has_required)
-    for (const int cell : task_.required) addLacking(cell);
-  sortUnique(needed_);
-  sortUnique(lacking_);
+std::vector<int> Tile::nearMarked(const std::vector<std::uint8_t>& is_marked) const {
+  std::vector<std::uint8_t> is_near(is_marked.size());
+  for (int cell = 0; cell < cells_.size(); ++cell)
+    if (is_marked[cell] != 0) cells_.visitNear(cell, [&](int near) { is_near[near] = 1; });
+  std::vector<int> cells;
+  for (int cell = 0; cell < cells_.size(); ++cell)
+    if (is_near[cell] != 0) cells.push_back(cell);
+  return cells;
 }
 
-void Tile::addLacking(int cell) {
-  if (is_held_[cell] == 0) lacking_.push_back(cell);
-  const auto add = [&](int unsure) {
-    const auto found = std::lower_bound(lacks_.begin(), lacks_.end(), std::pair(unsure, std::vector<int>()));
-    if (found != lacks_.end() && found->first == unsure)
-      lacking_.insert(lacking_.end(), found->second.begin(), found->second.end());
+void Tile::findComplete(const Progress& progress) {
+  std::vector<std::uint8_t> is_fit = is_sure_;
+  for (const auto& [to, from] : doubtful_pairs_) is_fit[to] = 0;
+  // Any star may have triangles with points of the cells beside its own.
+  std::vector<std::int8_t> around(is_fit.size(), -1);  // by cell, whether all cells near it are fit; -1: not known yet
+  const auto isFitAround = [&](int cell) {
+    if (around[cell] >= 0) return around[cell] != 0;
+    around[cell] = 1;
+    cells_.visitNear(cell, [&](int near) {
+      if (is_fit[near] == 0) around[cell] = 0;
+    });
+    return around[cell] != 0;
   };
-  add(cell);
-  for (const auto& [from, to] : doubtful_pairs_)
-    if (to == cell) add(from);
+  const bool has_required =
+      std::all_of(task_.required.begin(), task_.required.end(), [&](int cell) { return is_sure_[cell] != 0; });
+  std::vector<std::uint8_t> by_complete(is_fit.size()), by_other(is_fit.size());  // cells on which own ones depend
+  std::vector<int> reached;
+  for (std::size_t i = 0; i < task_.own.size(); ++i) {
+    if (progress && !progress("tiles", static_cast<double>(i) / static_cast<double>(task_.own.size())))
+      throw Cancelled("a tile was cancelled");
+    const int own = task_.own[i];
+    reached.clear();
+    cells_.visit(cells_.box(own), dependence_[own], [&](int cell) { reached.push_back(cell); });
+    const bool is_complete = has_required && std::all_of(reached.begin(), reached.end(), isFitAround);
+    (is_complete ? complete_ : incomplete_).push_back(own);
+    for (const int cell : reached) (is_complete ? by_complete : by_other)[cell] = 1;
+  }
+  needed_ = nearMarked(by_complete);
+  std::vector<int> wanted = nearMarked(by_other);
+  if (!has_required) wanted.insert(wanted.end(), task_.required.begin(), task_.required.end());
+  addLacking(std::move(wanted));
+}
+
+void Tile::addLacking(std::vector<int> cells) {
+  sortUnique(cells);
+  std::vector<int> unsure = cells;
+  for (const int cell : cells) {
+    if (is_held_[cell] == 0) lacking_.push_back(cell);
+    auto pair = std::lower_bound(doubtful_pairs_.begin(), doubtful_pairs_.end(), std::pair(cell, 0));
+    for (; pair != doubtful_pairs_.end() && pair->first == cell; ++pair) unsure.push_back(pair->second);
+  }
+  sortUnique(unsure);
+  std::vector<std::uint8_t> is_lacking(is_held_.size());
+  for (const auto& [cell, lacks] : lacks_)
+    if (std::binary_search(unsure.begin(), unsure.end(), cell))
+      for (const int lacking : lacks) is_lacking[lacking] = 1;
+  for (int cell = 0; cell < cells_.size(); ++cell)
+    if (is_lacking[cell] != 0) lacking_.push_back(cell);
+  sortUnique(lacking_);
 }
 
 TileTask Tile::rest() const {

@@ -15,8 +15,8 @@ namespace tufted {
 
 /// What a tile has to do.
 struct TileTask {
-  std::vector<int> own;       ///< cells whose rows are wanted, ascending
-  std::vector<int> required;  ///< cells whose stars must be certain, although a tile cannot see that they reach its own
+  std::vector<int> own;           ///< cells whose rows are wanted, ascending
+  std::vector<int> required;      ///< cells with a star that has triangles in `own` from afar, found by other tiles
   std::vector<int> lacking = {};  ///< cells that earlier builds lacked
   int round = 0;                  ///< number of earlier builds
 };
@@ -65,8 +65,11 @@ class Tile final : public CloudPart {
   void findPairs(const SurfaceStars& built);
   void addFaceRadii();
   /// Finds the own cells that depend on certain stars only, and what the others lack.
-  void findComplete();
-  void addLacking(int cell);
+  void findComplete(const Progress& progress);
+  /// The cells near those that are marked, ascending.
+  std::vector<int> nearMarked(const std::vector<std::uint8_t>& is_marked) const;
+  /// Adds what lets cells be unfit to what is lacking.
+  void addLacking(std::vector<int> cells);
 
   const SortedPoints& points_;
   const Cells& cells_;
@@ -89,7 +92,7 @@ class Tile final : public CloudPart {
   std::vector<std::pair<int, std::vector<int>>> lacks_;  ///< cells that are not sure, and what they lack
   std::vector<double> dependence_;  ///< by cell, of own ones how far the rows of its points depend on stars
   std::vector<std::pair<int, int>> far_pairs_;
-  std::vector<std::pair<int, int>> doubtful_pairs_;  ///< as far_pairs_, of all stars in cells that are not sure
+  std::vector<std::pair<int, int>> doubtful_pairs_;  ///< second and first cell, of all stars in cells that are not sure
   std::vector<int> complete_, incomplete_, needed_, lacking_;
 };
 

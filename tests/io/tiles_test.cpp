@@ -64,11 +64,27 @@ TEST(TileFiles, HoldTheRowsOfTheWhole) {
   }
 }
 
+TEST(TileFiles, HaveTheRowsOfChosenPoints) {
+  const TemporaryDir dir;
+  const Points points = sheet();
+  TileSourceText text;
+  for (int i = 0; i < points.rows(); ++i) text.rows.push_back(2 * i);
+  writeLaplacianByTiles(dir.path(), sourceOf(points), twoTiles(), text);
+  const Eigen::MatrixXd rows = readArray(dir / "file_row.npy");
+  ASSERT_EQ(rows.rows(), points.rows());
+  EXPECT_EQ(rows(6401), 2 * 6401);
+  EXPECT_EQ(filesOfResult(dir.path()).size(), tileFiles().size() + 1);
+  text.rows.pop_back();
+  EXPECT_THROW(writeLaplacianByTiles(dir.path(), sourceOf(points), twoTiles(), text), InvalidInput);
+}
+
 TEST(TileFiles, AreNotWrittenInPart) {
   const TemporaryDir dir;
   const auto folder = dir / "new";
   TileOptions cancelled = twoTiles();
   cancelled.progress = [](auto, double done) { return done == 0; };
+  EXPECT_THROW(writeLaplacianByTiles(folder, sourceOf(sheet()), cancelled), Cancelled);
+  cancelled.progress = [](auto stage, double) { return stage != "write"; };
   EXPECT_THROW(writeLaplacianByTiles(folder, sourceOf(sheet()), cancelled), Cancelled);
   EXPECT_FALSE(std::filesystem::exists(folder));
   const SmallDisk disk("1M");

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Collected {
 };
 
 /// The rows of all tiles, put together.
-Collected byTiles(const Points& points, const CloudOptions& options, int tiles) {
+Collected byTiles(const Points& points, const CloudOptions& options, int tiles, double memory = 4e9) {
   const auto n = static_cast<std::size_t>(points.rows());
   Collected result;
   Laplacian& laplacian = result.laplacian;
@@ -35,21 +36,22 @@ Collected byTiles(const Points& points, const CloudOptions& options, int tiles) 
   for (std::size_t i = 0; i < n; ++i) laplacian.representative[i] = static_cast<int>(i);
   laplacian.frames.normals.setZero(points.rows(), 3);
   std::vector<std::vector<std::pair<int, double>>> entries(n);
-  result.report = laplacianByTiles(sourceOf(points),
-                                   {.cloud = options, .tiles = tiles, .folder = std::filesystem::temp_directory_path()},
-                                   [&](const TileRows& rows) {
-                                     for (std::size_t r = 0; r < rows.point.size(); ++r) {
-                                       const auto i = static_cast<std::size_t>(rows.point[r]);
-                                       laplacian.M[i] = rows.M[r];
-                                       laplacian.status[i] = rows.status[r];
-                                       laplacian.boundary[i] = rows.boundary[r];
-                                       laplacian.representative[i] = static_cast<int>(rows.representative[r]);
-                                       laplacian.frames.normals.row(i) = rows.normals.row(r);
-                                       entries[i].clear();
-                                       for (auto e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-                                         entries[i].emplace_back(static_cast<int>(rows.column[e]), rows.value[e]);
-                                     }
-                                   });
+  result.report = laplacianByTiles(
+      sourceOf(points),
+      {.cloud = options, .memory = memory, .tiles = tiles, .folder = std::filesystem::temp_directory_path()},
+      [&](const TileRows& rows) {
+        for (std::size_t r = 0; r < rows.point.size(); ++r) {
+          const auto i = static_cast<std::size_t>(rows.point[r]);
+          laplacian.M[i] = rows.M[r];
+          laplacian.status[i] = rows.status[r];
+          laplacian.boundary[i] = rows.boundary[r];
+          laplacian.representative[i] = static_cast<int>(rows.representative[r]);
+          laplacian.frames.normals.row(i) = rows.normals.row(r);
+          entries[i].clear();
+          for (auto e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+            entries[i].emplace_back(static_cast<int>(rows.column[e]), rows.value[e]);
+        }
+      });
   std::vector<Eigen::Triplet<double>> all;
   for (std::size_t i = 0; i < n; ++i)
     for (const auto& [j, value] : entries[i]) all.emplace_back(j, static_cast<int>(i), value);
@@ -176,6 +178,38 @@ TEST(Tiles, AreBuiltAgainWithAWiderMarginWhereASearchReachesFar) {
   const Collected part = byTiles(points, one(Preset::clean), 4);
   expectSame(part.laplacian, whole);
   EXPECT_GT(part.report.builds, part.report.tiles);
+}
+
+// The whole sphere does not fit into memory as the one tile that is asked for.
+TEST(Tiles, AreHalvedIfTheyAreTooLarge) {
+  const Points points = shapes::sphere(20000).points;
+  const Collected part = byTiles(points, one(Preset::clean), 1, 250e6 + 700 * 15000);
+  expectSame(part.laplacian, pointCloudLaplacian(points, one(Preset::clean)));
+  EXPECT_LE(part.report.most_points, 15000);
+  EXPECT_GE(part.report.builds, 2);
+  EXPECT_THROW(byTiles(points, one(Preset::clean), 1, 250e6 + 700 * 100), InvalidInput);
+  EXPECT_EQ(byTiles(points, one(Preset::clean), 0, 1e30).report.tiles, 1);
+}
+
+// A build of a tile is not begun, nor a batch of points read, after progress has returned false.
+TEST(Tiles, StopWhenProgressSaysSo) {
+  const Points points = shapes::sphere(2000).points;
+  for (const std::string_view last : {"sort", "tiles"}) {
+    int calls_after = 0;
+    bool is_stopped = false;
+    const Progress stop = [&](std::string_view stage, double) {
+      calls_after += is_stopped ? 1 : 0;
+      is_stopped = is_stopped || stage == last;
+      return !is_stopped;
+    };
+    EXPECT_THROW(laplacianByTiles(
+                     sourceOf(points),
+                     {.cloud = one(Preset::clean), .folder = std::filesystem::temp_directory_path(), .progress = stop},
+                     [](const TileRows&) {}),
+                 Cancelled);
+    EXPECT_TRUE(is_stopped);
+    EXPECT_EQ(calls_after, 0);
+  }
 }
 
 // Cells are as large as suits dense parts, so that triangles of others reach past many cells.

@@ -2,12 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bytes.h"
 #include "interrupt.h"
 #include "options.h"
 #include "output.h"
@@ -22,20 +22,6 @@ namespace {
 const std::map<std::string, tufted::SolverMethod> methods = {{"automatic", tufted::SolverMethod::automatic},
                                                              {"cholesky", tufted::SolverMethod::cholesky},
                                                              {"multigrid", tufted::SolverMethod::multigrid}};
-
-/// Parses a size in bytes. Not by CLI11, which converts -1 to the largest number.
-std::optional<std::size_t> parseBytes(const std::string& text) {
-  static const std::map<std::string, double> units = {{"", 1},         {"B", 1},       {"kB", 1e3},     {"MB", 1e6},
-                                                      {"GB", 1e9},     {"TB", 1e12},   {"KiB", 0x1p10}, {"MiB", 0x1p20},
-                                                      {"GiB", 0x1p30}, {"TiB", 0x1p40}};
-  double number = 0;
-  const char* const text_end = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), text_end, number);
-  const auto unit = units.find(std::string(end, text_end));
-  if (error != std::errc() || unit == units.end()) return std::nullopt;
-  const double bytes = number * unit->second;
-  return bytes >= 1 && bytes < 0x1p63 ? std::optional(static_cast<std::size_t>(bytes)) : std::nullopt;
-}
 
 void addSolvingOptions(CLI::App& command, Solving& solving) {
   addChoice(

@@ -3,13 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bytes.h"
 #include "command.h"
 #include "interrupt.h"
 #include "options.h"
@@ -24,26 +23,20 @@
 namespace {
 
 /// Options that a build by tiles has.
-const std::set<std::string> available = {
-    "--help",      "--help-all", "--as",      "--where", "--crop", "--polygon", "--thin",   "--out",       "--preset",
-    "--neighbors", "--threads",  "--mollify", "--quiet", "--json", "--verbose", "--memory", "--keep-noise"};
-
-/// Bytes of a size such as 4G, 500M or 4000000000; 0 if it is none. G is 2^30, as for the shell's tools.
-double bytesOf(const std::string& size) {
-  char* end = nullptr;
-  const double number = std::strtod(size.c_str(), &end);
-  const std::string unit = end;
-  const std::string units = "KMGT";
-  const std::size_t place = unit.size() == 1 ? units.find(unit) : std::string::npos;
-  if (!(number > 0) || !std::isfinite(number) || (!unit.empty() && place == std::string::npos)) return 0;
-  return unit.empty() ? number : std::ldexp(number, 10 * static_cast<int>(place + 1));
-}
+const std::set<std::string> available = {"--help",  "--help-all", "--as",     "--where",     "--crop",    "--polygon",
+                                         "--thin",  "--out",      "--preset", "--neighbors", "--threads", "--mollify",
+                                         "--quiet", "--json",     "--memory", "--keep-noise"};
 
 std::string nameOf(tufted::Preset preset) {
   return preset == tufted::Preset::clean ? "clean" : preset == tufted::Preset::scan ? "scan" : "lidar";
 }
 
-tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build, double points) {
+std::string megabytes(double bytes) {
+  return numberText(bytes / 1e6) + " MB";
+}
+
+/// @param taken bytes that the points take
+tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build, double taken) {
   if (build.preset != tufted::Preset::clean && !tiled.keeps_noise)
     throw tufted::InvalidInput("--memory needs --preset clean or --keep-noise: preset " + nameOf(build.preset) +
                                " moves noisy points, which tiles cannot do yet");
@@ -53,7 +46,7 @@ tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build, double poi
   options.cloud.neighbors = build.cloud.neighbors;
   options.cloud.threads = build.cloud.threads;
   if (build.mollify) options.cloud.mollify = *build.mollify;
-  options.memory = tiled.memory - points * 3 * sizeof(double);
+  options.memory = tiled.memory - taken;
   return options;
 }
 
@@ -63,10 +56,14 @@ void addTiled(CLI::App& command, Tiled& tiled) {
   CLI::Option* const memory =
       command
           .add_option_function<std::string>(
-              "--memory", [&tiled](const std::string& size) { tiled.memory = bytesOf(size); },
+              "--memory",
+              [&tiled](const std::string& size) {
+                tiled.memory = static_cast<double>(parseBytes(size).value());
+                tiled.memory_text = size;
+              },
               "Build the cloud by tiles that fit in this much memory, such as 4G; writes other files, see below")
           ->check([](const std::string& size) {
-            return bytesOf(size) > 0 ? std::string() : size + " is not a size such as 4G or 500M";
+            return parseBytes(size) ? std::string() : size + " is not a size such as 4G or 500M";
           })
           ->type_name("SIZE");
   command.add_flag("--keep-noise", tiled.keeps_noise, "Do not move noisy points onto the surface; only with --memory")
@@ -93,16 +90,30 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
   std::vector<std::string> notes = std::move(geometry.notes);
   const tufted::Points points = std::move(geometry.points);
   geometry = {};  // fields and normals take memory
-  tufted::TileOptions options = optionsOf(tiled, build, static_cast<double>(points.rows()));
-  options.progress = options.cloud.progress = progress;
   tufted::TileSourceText text;
+  text.rows = std::move(input.chosen.rows);
+  const auto taken =
+      static_cast<double>(static_cast<std::size_t>(points.size()) * sizeof(double) + text.rows.size() * sizeof(int));
+  tufted::TileOptions options = optionsOf(tiled, build, taken);
+  options.progress = options.cloud.progress = progress;
   text.source = input.name();
   text.preset = nameOf(build.preset);
+  text.memory = tiled.memory_text;
+  text.keep_noise = tiled.keeps_noise;
   if (input.chosen.of > 0)
     text.selection = input.chosen.json().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  const tufted::TileReport report = forOption(
-      "--memory", [&] { return tufted::writeLaplacianByTiles(out, tufted::sourceOf(points), options, text); });
+  const std::string given = "--memory " + tiled.memory_text + ", of which the points take " + megabytes(taken);
+  const tufted::TileReport report =
+      forOption(given, [&] { return tufted::writeLaplacianByTiles(out, tufted::sourceOf(points), options, text); });
   bar.clear();
+  if (report.active == 0) {
+    tufted::Report counts;
+    counts.points = report.points;
+    counts.not_finite = report.not_finite;
+    counts.coincident = report.coincident;
+    counts.isolated = report.isolated;
+    for (const std::string& line : warningsOf(input.name(), counts)) notes.push_back(line);
+  }
   for (const std::string& note : notes) warn(bar, note);
   Summary summary;
   summary.add("file", "%s (cloud)", input.name().c_str());

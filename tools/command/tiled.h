@@ -11,6 +11,7 @@
 /// The options of a build by tiles.
 struct Tiled {
   double memory = 0;         ///< --memory, in bytes; 0: not given, the whole cloud is built at once
+  std::string memory_text;   ///< --memory, as it was given
   bool keeps_noise = false;  ///< --keep-noise
 };
 

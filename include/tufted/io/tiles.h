@@ -13,9 +13,12 @@ struct TileSourceText {
   std::string source = {};     ///< name of the file of the points
   std::string selection = {};  ///< what select() kept of it, a JSON object; empty: all points
   std::string preset = {};     ///< name of the preset
+  std::string memory = {};     ///< the memory as the user gave it; empty: TileOptions::memory
+  bool keep_noise = false;     ///< whether the user asked not to move noisy points
+  std::vector<int> rows = {};  ///< row in that file of each point; empty: the points are those of the file, in order
 };
 
-/// Names of the files that writeLaplacianByTiles() writes.
+/// Names of the files that writeLaplacianByTiles() writes, if all points of the file are kept.
 std::vector<std::string> tileFiles();
 
 /// Builds L and M of a cloud by tiles, see laplacianByTiles(), and writes them into the directory `dir`, which is
@@ -27,12 +30,14 @@ std::vector<std::string> tileFiles();
 ///   representative.npy  int64, N, counted from 0
 ///   boundary.npy        uint8, N, see Boundary
 ///   normals.npy         float64, N x 3, of arbitrary sign; 0 for points that are not finite
+///   file_row.npy        int32, N, TileSourceText::rows, if not empty
 ///   report.json         the TileReport, the options, and as `files` the names of all files of this result
-/// While it runs, files without names in `dir` take 32 bytes per point and about 180 bytes per row. All files appear
-/// together, as with writeLaplacian().
+/// While it runs, files without names in `dir` take 32 bytes per point and about 180 bytes per row that is built. All
+/// files appear together, as with writeLaplacian().
 /// @param options `folder` is not used
 /// @return the same as laplacianByTiles()
-/// @throws as laplacianByTiles(); IoError naming the path
+/// @throws as laplacianByTiles(); InvalidInput if `rows` of `text` has another size than the points; IoError naming the
+/// path
 TileReport writeLaplacianByTiles(const std::filesystem::path& dir, const PointSource& source,
                                  const TileOptions& options, const TileSourceText& text = {});
 
