@@ -83,7 +83,6 @@ void addView(py::module_& module) {
   py::class_<Scene>(module, "Scene").def(py::init(&sceneOf));
   module.def("page", &page);
   module.def("picture", &picture);
-  module.def("color_maps", &colorMapNames);
 }
 
 }  // namespace tufted::python

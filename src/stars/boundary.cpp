@@ -84,10 +84,10 @@ class BoundaryFinder {
 
  private:
   /// Squared length of the longest projected spoke of a star that has triangles.
-  double longestEdge(int p, const TangentPlane& chart) const {
+  double longestEdge(int p, const TangentPlane& plane) const {
     double longest = 0;
     forEachTriangle(stars_, p, [&](int a, int b) {
-      longest = std::max({longest, chart.offset(a).squaredNorm(), chart.offset(b).squaredNorm()});
+      longest = std::max({longest, plane.offset(a).squaredNorm(), plane.offset(b).squaredNorm()});
     });
     return longest;
   }
@@ -102,15 +102,15 @@ class BoundaryFinder {
            off_plane * (view == View::along_normal ? std::max(support_.fit_radius[p], along) : support_.fit_radius[p]);
   }
 
-  Boundary lookBeyond(int p, View view, const TangentPlane& chart, WorkerState& state) const {
+  Boundary lookBeyond(int p, View view, const TangentPlane& plane, WorkerState& state) const {
     findGaps(
-        stars_, p, [&](int q) { return chart.direction(q); }, state.gaps);
-    const double limit = farthest * farthest * longestEdge(p, chart);
+        stars_, p, [&](int q) { return plane.direction(q); }, state.gaps);
+    const double limit = farthest * farthest * longestEdge(p, plane);
     bool is_rim = false;
     for (const Gap& gap : state.gaps) {
       bool goes_on = false;
       for (const Neighbor& q : state.near) {
-        const Eigen::Vector2d offset = chart.offset(q.index);
+        const Eigen::Vector2d offset = plane.offset(q.index);
         const double distance = offset.squaredNorm();
         if (!(distance > 0 && distance <= limit)) continue;
         if (!gap.holdsInTheMiddle(std::atan2(offset.y(), offset.x())) || !hasTriangles(stars_, q.index)) continue;

@@ -81,7 +81,8 @@ def check(page, name, count, picture):
     time.sleep(0.2)  # until the frame has been put onto the page
     _, _, color = pixels_of(page.screenshot(picture))
     differ = [max(abs(a - b) for a, b in zip(color(left + x, top + y), behind)) > 25 for x, y in places]
-    assert sum(differ) > 0.95 * len(places), f"{sum(differ)} of {len(places)} places of points of the {name} have a colour"
+    assert sum(differ) > 0.95 * len(places), \
+        f"{sum(differ)} of {len(places)} places of points of the {name} have a colour"
     x, y = 8, height - 8  # a corner of the frame, where nothing is
     assert max(abs(a - b) for a, b in zip(color(left + width / 2, top + y), behind)) <= 3
     print(f"{name}: {sum(differ)} of {len(places)} places of points have a colour")

@@ -51,6 +51,14 @@ def test_meshes_and_clouds_are_written_and_read(ending, tmp_path):
     np.testing.assert_array_equal(pp3d.read_point_cloud(path), V)
 
 
+def test_a_file_that_cannot_be_written_is_named(tmp_path):
+    V, F = soup(9)
+    path = tmp_path / "missing" / "mesh.off"
+    for call in (lambda: pp3d.write_mesh(V, F, path), lambda: pp3d.write_point_cloud(V, str(path))):
+        with pytest.raises(tufted.IoError, match="missing/mesh.off: cannot write: No such file"):
+            call()
+
+
 def test_texture_coordinates_are_written(tmp_path):
     V, F = soup(9)
     path = tmp_path / "test.obj"
@@ -78,12 +86,25 @@ def test_areas_and_the_cotan_laplacian(ball):
     np.testing.assert_allclose(L.toarray(), ours.toarray(), atol=1e-6)
 
 
+@pytest.mark.parametrize("exponent", [-520, -266, 266, 500])
+def test_areas_and_the_cotan_laplacian_in_any_unit(exponent):
+    """Squares of areas would vanish or overflow; a power of two changes no digit."""
+    V, F = torus_mesh(12, 8)
+    scaled = np.ldexp(V, exponent)
+    for areas in (pp3d.face_areas, pp3d.vertex_areas):
+        np.testing.assert_array_equal(areas(scaled, F), np.ldexp(areas(V, F), 2 * exponent))
+    assert (pp3d.cotan_laplacian(scaled, F) != pp3d.cotan_laplacian(V, F)).nnz == 0
+
+
 def test_edges_are_those_of_the_faces(ball):
     V, F = ball
     E = pp3d.edges(V, F)
     assert len(V) - len(E) + len(F) == 2 and (E[:, 0] < E[:, 1]).all()
     np.testing.assert_array_equal(pp3d.edges(np.zeros((5, 3)), [[0, 1, 2, 3], [3, 2, 4]]),
                                   [[0, 1], [0, 3], [1, 2], [2, 3], [2, 4], [3, 4]])
+    assert pp3d.edges(V, F).dtype == np.int32
+    np.testing.assert_array_equal(pp3d.edges(V, F.tolist()), E)
+    assert pp3d.edges(np.zeros((0, 3)), []).shape == pp3d.edges(V, F[:0]).shape == (0, 2)
 
 
 def test_marching_triangles_gives_places_on_edges(ball):
@@ -98,6 +119,19 @@ def test_marching_triangles_gives_places_on_edges(ball):
         for k in range(len(index) - 1):  # neighbours lie in one triangle
             assert len(np.unique(E[index[k:k + 2]])) == 3
     assert pp3d.marching_triangles(V, F, u, 5.0) == []
+
+
+def test_lines_end_where_values_are_not_finite(ball):
+    V, F = ball
+    u = V[:, 2].copy()
+    u[V[:, 0] > 0.5], u[V[:, 0] < -0.5] = np.nan, np.inf
+    E = pp3d.edges(V, F)
+    curves = pp3d.marching_triangles(V, F, u, 0.3)
+    assert len(curves) == 2 and all(curve[0] != curve[-1] for curve in curves)
+    for index, (t,) in sum(curves, []):
+        assert (1 - t) * u[E[index, 0]] + t * u[E[index, 1]] == pytest.approx(0.3, abs=1e-12)
+    with pytest.raises(tufted.InvalidInput, match="marching_triangles: isoval = None, must be a number"):
+        pp3d.marching_triangles(V, F, u, None)
 
 
 def equator(V):
@@ -121,6 +155,9 @@ def test_distances_from_curves(ball):
     pole = int(V[:, 2].argmax())
     several = heat.compute_distance([curve], [], [pole], level_set_constraint="ZeroSet")
     assert several[pole] == 0
+    np.testing.assert_array_equal(heat.compute_distance([curve], points=[(pole, [])]), several)
+    corner = heat.compute_distance([], points=[(0, [1.0, 0.0, 0.0])])
+    np.testing.assert_array_equal(corner, heat.compute_distance([], points=[F[0, 0]]))
     expected = np.where(latitude > np.pi / 4, np.pi / 2 - latitude, latitude)
     np.testing.assert_allclose(several[latitude > -1.4], expected[latitude > -1.4], atol=0.03)
 
@@ -255,6 +292,13 @@ def marched(V, F, *curves):
     (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([[(0, [])]], level_set_constraint="None"),
      "level_set_constraint = 'None', must be 'ZeroSet'"),
     (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([]), "must have at least one source"),
+    (lambda V, F: pp3d.MeshSignedHeatSolver(V, F, 0), "MeshSignedHeatSolver: t_coef = 0, must be finite and above 0"),
+    (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([], points=[99]), "points has 99, must lie in"),
+    (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([[]]), "MeshSignedHeatSolver: curves is empty"),
+    (lambda V, F: marched(V, F, []), "curves has no place, must have at least one"),
+    (lambda V, F: marched(V, F, [[3, 4]]), "curves has the place 3, must be a tuple as (index, [])"),
+    (lambda V, F: pp3d.write_mesh(V, F, "m.obj", V[:, :2]), "write_mesh: UV_coords is given, must be None without"),
+    (lambda V, F: pp3d.MeshVectorHeatSolver(V, F).compute_log_map([0, 1]), "compute_log_map: v_ind has 2 indices"),
     (lambda V, F: pp3d.MeshVectorHeatSolver(V, F).compute_log_map(0, "Fast"), "strategy = 'Fast', must be one of"),
     (lambda V, F: pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_loop([0]), "find_geodesic_loop: v_list has 1"),
     (lambda V, F: pp3d.EdgeFlipGeodesicSolver(V, F).find_geodesic_path(0, 10**6), "find_geodesic_path: v_end has"),

@@ -107,6 +107,12 @@ def test_a_page_holds_all_fields(cloud, tmp_path):
     ({"background": "red"}, "picture: background = 'red', must be one of"),
     ({"line": [1, 2]}, "picture: line has the shape 2, must be N x 3"),
     ({"range": 3}, "picture: range has the shape (), must be 2"),
+    ({"range": [[0, 1], [2, 3]]}, "picture: range has the shape 2 x 2, must be 2"),
+    ({"kind": {"height": "label"}}, "picture: kind has the name 'height', must be one of values"),
+    ({"kind": {"values": "label"}, "values": None}, "picture: kind has the name 'values', must be one of values"),
+    ({"kind": 3}, "picture: kind is a int, must be a text"),
+    ({"color_map": 3}, "picture: color_map is a int, must be a text"),
+    ({"background": None}, "picture: background is a NoneType, must be a text"),
     ({"values": [1, 2]}, "picture: values has the shape 2, must be 3000"),
     ({"values": {"a": "b"}}, "picture: values has dtype"),
 ])
@@ -114,6 +120,13 @@ def test_mistakes_are_named(cloud, given, words):
     with pytest.raises(tufted.InvalidInput) as caught:
         cloud.picture(**{"values": CLOUD[:, 0], **given})
     assert words in str(caught.value)
+
+
+def test_a_file_that_cannot_be_written_is_named(cloud, tmp_path):
+    path = tmp_path / "missing" / "file"
+    for call in (lambda: cloud.page(path=path), lambda: cloud.picture(size=(32, 32)).save(str(path))):
+        with pytest.raises(tufted.IoError, match="missing/file: cannot write: No such file"):
+            call()
 
 
 def test_odd_surfaces_are_drawn():

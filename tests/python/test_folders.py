@@ -101,13 +101,15 @@ def stl(folder):
     points, faces = torus_mesh(12, 8)
     lines = ["solid a"]
     for f in faces:
-        lines += ["facet normal 0 0 0", "outer loop", *("vertex " + " ".join(map(repr, map(float, points[v]))) for v in f),
+        lines += ["facet normal 0 0 0", "outer loop",
+                  *("vertex " + " ".join(map(repr, map(float, points[v]))) for v in f),
                   "endloop", "endfacet"]
     (folder / "a.stl").write_text("\n".join(lines + ["endsolid"]))
     return folder / "a.stl"
 
 
-FILES = {"organized pcd": organized_pcd, "organized ply": organized_ply, "cloud": cloud_ply, "mesh": mesh_ply, "stl": stl}
+FILES = {"organized pcd": organized_pcd, "organized ply": organized_ply, "cloud": cloud_ply, "mesh": mesh_ply,
+         "stl": stl}
 
 
 def made(kind, folder):

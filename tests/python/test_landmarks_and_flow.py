@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 import tufted
-from support import CLOUD, torus_mesh
+from support import CLOUD, sphere, torus_mesh
 
 
 def test_distances_of_landmarks_are_those_of_single_queries(mesh):
@@ -38,6 +38,15 @@ def test_ways_through_points_keep_their_class_on_clouds():
     np.testing.assert_array_equal(cloud.path_through([4000, stops[0]]).points, cloud.path_through([0, stops[0]]).points)
     with pytest.raises(tufted.InvalidInput, match="path_through: points has 1 indices"):
         cloud.path_through([5])
+    far = tufted.PointCloud(np.vstack([points, [[50, 50, 50]]]))
+    with pytest.raises(tufted.InvalidInput, match=r"path_through: points has 4000, must be corners of triangles\(\)"):
+        far.path_through([0, 4000])
+
+
+def test_ways_through_points_of_a_loaded_mesh_need_its_cover(mesh, tmp_path):
+    mesh.save(tmp_path)
+    with pytest.raises(tufted.InvalidInput, match="path_through: the cover is missing, must be saved: formats="):
+        tufted.load(tmp_path).path_through([0, 900])
 
 
 def test_the_conformal_mean_curvature_flow_makes_a_sphere():
@@ -55,3 +64,26 @@ def test_the_conformal_mean_curvature_flow_makes_a_sphere():
     assert np.nanmax(abs(one - two)) > 1e-3
     with pytest.raises(tufted.InvalidInput, match="mean_curvature_flow: time_step = 0, must be finite and above 0"):
         cloud.mean_curvature_flow(time_step=0)
+
+
+def test_components_flow_on_their_own():
+    """Whatever their sizes and distances are, each becomes round in its place; one without area stays."""
+    egg = sphere(1500) * [2, 1, 1]
+    flat = np.outer([0.0, 1, 2], [1, 0, 0])
+    alone = tufted.PointCloud(egg).mean_curvature_flow(steps=20, time_step=0.05)
+    both = tufted.PointCloud(np.vstack([egg, 1e-3 * egg + [30, 0, 0]])).mean_curvature_flow(steps=20, time_step=0.05)
+    np.testing.assert_allclose(both[:1500], alone, atol=1e-6)
+    np.testing.assert_allclose(both[1500:], 1e-3 * alone + [30, 0, 0], atol=1e-6)
+    V, F = torus_mesh()
+    mesh = tufted.Mesh(np.vstack([V, flat + 9]), np.vstack([F, [[800, 801, 802]]]))
+    np.testing.assert_array_equal(mesh.mean_curvature_flow()[800:], flat + 9)
+    np.testing.assert_allclose(mesh.mean_curvature_flow()[:800], tufted.Mesh(V, F).mean_curvature_flow(), atol=1e-9)
+
+
+def test_the_flow_works_in_any_unit():
+    V, F = torus_mesh()
+    expected = tufted.Mesh(V, F).mean_curvature_flow(steps=3)
+    for unit in (2.0**-400, 2.0**400):
+        np.testing.assert_array_equal(tufted.Mesh(unit * V, F).mean_curvature_flow(steps=3), unit * expected)
+    with pytest.raises(tufted.SolverFailure, match="mean_curvature_flow: a step cannot be solved with time_step = 1e"):
+        tufted.Mesh(V, F).mean_curvature_flow(time_step=1e100)

@@ -117,6 +117,19 @@ def test_zoom_out_starts_from_points_too(meshes):
     np.testing.assert_array_equal(maps.to_source, np.arange(len(uv)))
 
 
+def test_a_larger_start_is_returned_as_it_is(meshes):
+    C = np.random.default_rng(1).normal(size=(12, 12))
+    np.testing.assert_array_equal(tufted.zoom_out(*meshes[1:], C, k=9), C)
+
+
+def test_functional_map_stops_when_told(meshes):
+    stages = []
+    with pytest.raises(tufted.Cancelled, match="functional_map"):
+        tufted.functional_map(*meshes[1:], progress=lambda stage, fraction: stages.append(stage) or (
+            stage != "functional_map" or stages.count(stage) < 3))
+    assert stages.count("functional_map") == 3
+
+
 def test_zoom_out_stops_when_told(meshes):
     stages = []
     with pytest.raises(tufted.Cancelled, match="zoom_out"):
@@ -145,10 +158,25 @@ def test_signatures_of_two_shapes_compare_only_at_the_same_scales(meshes):
     heat = first.hks(k=60)
     there = second.hks(9 * heat.times, k=60)  # lengths are three times as large
     np.testing.assert_allclose(heat, 9 * there, rtol=0.02)
-    there.times[:] = heat.times  # as if the shapes had the same size
-    assert tufted.functional_map(first, second, (heat, there)).shape == (30, 30)
-    assert heat[:, :3].times is None and (heat + 1).times is None
+    expected = tufted.functional_map(first, second, (heat, there))  # at scales that correspond
+    for pair in ((np.asarray(heat), np.asarray(there)), (heat, np.asarray(there))):
+        np.testing.assert_array_equal(tufted.functional_map(first, second, pair), expected)
+    waves = second.wks(here.energies - np.log(9), width=here.width, k=60)
+    assert tufted.functional_map(first, second, (here, waves)).shape == (30, 30)
+    for other in (second.wks(here.energies, width=2 * here.width, k=60), waves[:, :50], heat):
+        with pytest.raises(tufted.InvalidInput, match="signatures at different|descriptors have 100 and 50 columns"):
+            tufted.functional_map(first, second, (here, other))
     np.testing.assert_array_equal(first.wks(here.energies, width=here.width, k=60), here)
+
+
+def test_results_of_arithmetic_with_signatures_are_plain(meshes):
+    heat = meshes[1].hks(k=20)
+    assert heat[:, :3].times is None and heat.copy().times is None
+    for plain in (heat + 1, heat.sum(axis=0), np.log(heat)):
+        assert type(plain) is np.ndarray
+    for number in (heat.max(), heat.sum(), heat.mean()):
+        assert isinstance(number, float)
+    assert heat.max() == np.asarray(heat).max()
 
 
 def test_a_spectrum_at_hand_serves_signatures(meshes):
@@ -176,7 +204,18 @@ def test_a_spectrum_at_hand_serves_signatures(meshes):
     (lambda a, b: tufted.functional_map(a, b, landmarks=[0, 1, 2]), "landmarks has the shape 3, must be P x 2"),
     (lambda a, b: tufted.zoom_out(a, b, np.eye(3)[:2]), "start has the shape 2 x 3, must be k x k"),
     (lambda a, b: tufted.zoom_out(a, b, [0, 1]), "start must be a matrix, or 1326 indices below 1326"),
-    (lambda a, b: tufted.point_maps(a, b, np.full((3, 3), np.nan)), "C has the shape 3 x 3, must be k x k, finite"),
+    (lambda a, b: tufted.point_maps(a, b, np.full((3, 3), np.nan)), "C has a value that is not finite"),
+    (lambda a, b: tufted.point_maps(a, b, np.zeros((0, 0))), "point_maps: C has the shape 0 x 0, must be k x k"),
+    (lambda a, b: tufted.point_maps(a, b, np.eye(3)[0]), "point_maps: C has the shape 3, must be k x k"),
+    (lambda a, b: tufted.point_maps(a, b, [[1, 2], [3]]), "point_maps: C is no array"),
+    (lambda a, b: tufted.zoom_out(a, b, [[1, 2], [3]]), "zoom_out: start is no array"),
+    (lambda a, b: tufted.zoom_out(a, b, -np.ones(len(b), int)), "zoom_out: start has no index of at least 0"),
+    (lambda a, b: tufted.zoom_out(a, tufted.Mesh(b.points, b.faces[:0]), np.eye(3)), "zoom_out: a shape has the area"),
+    (lambda a, b: tufted.point_maps(tufted.Mesh(b.points, b.faces[:0]), b, np.eye(3)), "point_maps: a shape has the"),
+    (lambda a, b: tufted.functional_map(a, b, (0 * a.M, b.M)), "descriptors have no column that is not 0 and has a"),
+    (lambda a, b: tufted.functional_map(a, b, (a.M, b.M), weights=[0]), "descriptors have no column that is not 0"),
+    (lambda a, b: tufted.functional_map(a, tufted.Mesh(np.vstack([b.points, [[9] * 3]]), b.faces),
+                                        landmarks=[[0, 1326]]), "landmarks has 1326, a point of the target that takes"),
 ])
 def test_mistakes_are_named(meshes, call, words):
     with pytest.raises(tufted.InvalidInput) as caught:

@@ -71,7 +71,8 @@ def test_the_stub_has_every_public_name():
     for node in STUBS.body:
         if isinstance(node, ast.ClassDef) and node.name in ("Surface", "PointCloud", "Mesh"):
             whole = getattr(tufted, node.name)
-            classes = whole.__mro__[:-1] if node.name == "Surface" else [whole]  # Surface has its parts in files of their own
+            # Surface has its parts in files of their own.
+            classes = whole.__mro__[:-1] if node.name == "Surface" else [whole]
             members = {n for c in classes for n, v in vars(c).items()
                        if not n.startswith("_") and (callable(v) or isinstance(v, (property, staticmethod)))}
             assert members == {m.name for m in node.body if not m.name.startswith("_")}

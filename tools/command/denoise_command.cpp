@@ -73,7 +73,7 @@ int runDenoise(Settings& settings) {
   tufted::Geometry geometry = readInput(settings.input, progress);
   if (geometry.is_mesh) throw tufted::IoError(settings.input.name() + ": is a mesh; --as cloud takes its points alone");
   checkField(settings.look, geometry, {{"noise"}}, false);
-  requireLas(geometry, settings.copies, settings.input.name(), {});
+  requireLas(geometry, settings.copies, settings.input.name(), {{"noise"}});
   if (interrupted()) throw tufted::Cancelled("cancelled");
   const std::string doubt = doubtOf(geometry, settings.structure);
   if (settings.structure == Structure::automatic) settings.structure = structureFor(geometry);

@@ -107,8 +107,6 @@ auto blameData(const Operator& source, const Step& step) {
     throw tufted::IoError(source.name + ": " + why + ": " + message);
   } catch (const tufted::SolverFailure& error) {
     throw tufted::SolverFailure(source.chosen.inFile(error.what()));
-  } catch (const tufted::IoError& error) {
-    throw tufted::IoError(source.chosen.inFile(error.what()));
   }
 }
 

@@ -20,7 +20,8 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
 /// Adds --format for the copies of the points: ply, pcd and las.
 void addCopies(CLI::App& command, std::vector<tufted::Format>& target);
 
-/// Checks before the build that LAS can hold the points and the results if one of the formats is LAS.
+/// Checks before the build, if one of the formats is LAS, that it has room for so many values per point and can hold
+/// the first point.
 /// @param name of the input, for messages
 /// @param fields results of each point
 /// @throws IoError for points that are not finite, InvalidInput as tufted::checkLas()

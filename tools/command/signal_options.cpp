@@ -82,6 +82,6 @@ MatrixXd readSignals(const SignalOptions& options, const Operator& source) {
 void requireFinite(const MatrixXd& signals, const Operator& source) {
   for (Eigen::Index i = 0; i < signals.rows(); ++i)
     if (source.laplacian.status[i] == tufted::PointStatus::active && !signals.row(i).allFinite())
-      throw tufted::IoError(source.name + ": the values of point " + std::to_string(i) +
+      throw tufted::IoError(source.name + ": " + source.chosen.inFile("the values of point " + std::to_string(i)) +
                             " are not finite, must be at points that take part");
 }

@@ -2,11 +2,12 @@
 argument.
 """
 import contextlib
+import os
 
 import numpy as np
 import scipy.sparse
 
-from ._tufted import Cancelled, InvalidInput, SolverFailure
+from ._tufted import Cancelled, InvalidInput, IoError, SolverFailure
 
 _LARGEST = 2**31 - 1
 
@@ -27,7 +28,7 @@ def named(function, **names):
         raise type(error)(f"{function}: {what or where}") from None
 
 
-def _array(function, name, value):
+def array(function, name, value):
     if np.ma.is_masked(value):
         raise InvalidInput(f"{function}: {name} is masked at {np.ma.count_masked(value)} places, must have all its "
                            "values (array.compressed() leaves the others out)")
@@ -40,12 +41,12 @@ def _array(function, name, value):
 def _numbers(function, name, value):
     if np.ma.is_masked(value) and value.dtype.kind in "fiu":  # masked entries become NaN, which takes no part
         value = value.astype(np.float64).filled(np.nan)
-    array = _array(function, name, value)
-    if array.size == 0 and array.dtype == object:
-        array = array.astype(np.float64)
-    if array.dtype.kind not in "fiu":
-        raise InvalidInput(f"{function}: {name} has dtype {array.dtype}, must be real numbers")
-    return np.ascontiguousarray(array, dtype=np.float64) if array.ndim else array.astype(np.float64)
+    found = array(function, name, value)
+    if found.size == 0 and found.dtype == object:
+        found = found.astype(np.float64)
+    if found.dtype.kind not in "fiu":
+        raise InvalidInput(f"{function}: {name} has dtype {found.dtype}, must be real numbers")
+    return np.ascontiguousarray(found, dtype=np.float64) if found.ndim else found.astype(np.float64)
 
 
 def _shape(array):
@@ -72,15 +73,15 @@ def vector_of_three(function, name, value):
 
 def integers(function, name, value):
     """Integers of any type as int32, whatever their shape."""
-    array = _array(function, name, value)
-    if array.size == 0:
-        return array.astype(np.int32)
-    if array.dtype.kind not in "iu":
-        raise InvalidInput(f"{function}: {name} has dtype {array.dtype}, must be integers")
-    lowest, highest = array.min(), array.max()
+    found = array(function, name, value)
+    if found.size == 0:
+        return found.astype(np.int32)
+    if found.dtype.kind not in "iu":
+        raise InvalidInput(f"{function}: {name} has dtype {found.dtype}, must be integers")
+    lowest, highest = found.min(), found.max()
     if lowest < -_LARGEST - 1 or highest > _LARGEST:
         raise InvalidInput(f"{function}: {name} has {lowest if lowest < 0 else highest}, must fit into 32 bits")
-    return np.ascontiguousarray(array, dtype=np.int32) if array.ndim else array.astype(np.int32)
+    return np.ascontiguousarray(found, dtype=np.int32) if found.ndim else found.astype(np.int32)
 
 
 def indices(function, name, value, count, empty=False):
@@ -147,6 +148,12 @@ def whole(function, name, value, least):
     return int(value)
 
 
+def text(function, name, value):
+    if not isinstance(value, str):
+        raise InvalidInput(f"{function}: {name} is a {type(value).__name__}, must be a text")
+    return value
+
+
 def callback(function, value):
     if value is not None and not callable(value):
         raise InvalidInput(f"{function}: progress = {value!r}, must be None or a function of stage and fraction")
@@ -157,6 +164,15 @@ def report(function, progress, fraction):
     """Calls `progress` with the name of a function of the package, which computes in Python, as its stage."""
     if progress is not None and progress(function, fraction) is False:
         raise Cancelled(f"{function}: progress returned False")
+
+
+def write(path, content):
+    """Writes bytes to a file, which is replaced; raises IoError with its name."""
+    try:
+        with open(path, "wb") as file:
+            file.write(content)
+    except OSError as error:
+        raise IoError(f"{os.fspath(path)}: cannot write: {error.strerror or error}") from None
 
 
 def sparse(parts, size):

@@ -57,9 +57,12 @@ class PointCloud(Surface):
     """
 
     def __init__(self, points, preset="scan", neighbors=30, normals=None, *, viewpoint=None, image=None, rings=None,
-                 neighborhoods=None, mollify=_tufted.default_mollify, gluing="star", order="angle", seed=0, delaunay="star", threads=0,
-                 solver="automatic", memory_limit=0, progress=None):
+                 neighborhoods=None, mollify=_tufted.default_mollify, gluing="star", order="angle", seed=0,
+                 delaunay="star", threads=0, solver="automatic", memory_limit=0, progress=None):
         name = "PointCloud"
+        if not isinstance(preset, str):  # the second argument of other packages
+            raise InvalidInput(f"{name}: preset is a {type(preset).__name__}, must be 'scan', 'clean' or 'lidar'; a "
+                               "number of neighbours is given as neighbors=30, and triangles to Mesh")
         solving = _solving(name, threads, solver, memory_limit)
         points = check.rows_of_three(name, "points", points)
         if normals is not None:
@@ -222,9 +225,9 @@ def read(path, *, kind="automatic", weld=False, where=(), crop=None, polygon=Non
     changed.
     kind: "automatic", "cloud" (faces are ignored) or "mesh" (a file without faces is an error).
     weld: as in Mesh; False for clouds, whose equal points are always merged.
-    where, crop, polygon, thin: which points of a cloud are kept, all if none of the four is given. where: comparisons of
-    fields that must all hold, such as "classification=2,6", "z=10..20" or "return_number=number_of_returns". crop: six
-    numbers, the lower and the upper corner of a box, sides included. polygon: P x 2, corners in x and y. thin: the
+    where, crop, polygon, thin: which points of a cloud are kept, all if none of the four is given. where: comparisons
+    of fields that must all hold, such as "classification=2,6", "z=10..20" or "return_number=number_of_returns". crop:
+    six numbers, the lower and the upper corner of a box, sides included. polygon: P x 2, corners in x and y. thin: the
     spacing of thin(), applied last; 0: no thinning. `file_row` of the result says which points of the file are kept;
     the points that an organized cloud loses become NaN instead.
     image: whether the pixels of an organized cloud give the neighbours; None: if a pinhole camera at the file's
@@ -298,7 +301,8 @@ def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=N
     options = report.get("cloud_options" if laplacian.is_cloud else "mesh_options")
     surface = PointCloud.__new__(PointCloud) if laplacian.is_cloud else Mesh.__new__(Mesh)
     faces = None if laplacian.is_cloud else geometry.triangles
-    Surface.__init__(surface, laplacian, geometry.points, faces, solving, None if options is None else json.dumps(options), geometry,
-                     report.get("source", ""), [name for name, file in _LOADED.items() if file in files])
+    Surface.__init__(surface, laplacian, geometry.points, faces, solving,
+                     None if options is None else json.dumps(options), geometry, report.get("source", ""),
+                     [name for name, file in _LOADED.items() if file in files])
     surface._warn()
     return surface

@@ -118,18 +118,25 @@ class Distances:
         """Straightens a way through several points, which says on which side of handles and hills the path passes: no
         path near it is shorter. It need not pass the inner points. On a cloud it runs over triangles().
 
-        points: at least two indices. closed: whether the way leads back from the last to the first: a geodesic loop,
-        which keeps none of the points, and contracts to a single one where nothing holds it.
+        points: at least two indices, on a cloud of corners of triangles(). closed: whether the way leads back from the
+        last to the first: a geodesic loop, which keeps none of the points, and contracts to a single one where nothing
+        holds it.
         Returns points (K x 3; of a loop without the first one again) and the length along the surface. Raises
         InvalidInput if no path leads.
         """
         stops = check.indices("path_through", "points", points, len(self))
+        self._need_cover("path_through")
         progress = check.callback("path_through", progress)
+        stops = self.representative[stops]
+        if self._faces is None:
+            outside = stops[~np.isin(stops, self._joined_faces("path_through"))]
+            if outside.size:
+                raise InvalidInput(f"path_through: points has {outside[0]}, must be corners of triangles()")
         solver = self._keep("path through", lambda: self._path_solver("path_through", progress))
-        return Path(*solver.through(self.representative[stops], bool(closed), progress))
+        return Path(*solver.through(stops, bool(closed), progress))
 
     def _path_solver(self, function, progress):
-        """For paths in a class on a cloud those of triangles(), which do not overlap."""
+        """The solver of path(); for path_through() on a cloud, one on triangles(), which do not overlap."""
         laplacian = self._laplacian
         if function == "path_through" and self._faces is None:
             options = {"order": "angle", "seed": 0, "mollify": 0.0, "weld": False, "threads": self._solving["threads"]}

@@ -7,9 +7,9 @@ from . import _tufted
 from ._clouds import Mesh, PointCloud
 from ._tufted import InvalidInput
 
-# Default time steps of the library's solvers: for distances in mean squared edge lengths, for vectors in mean squared
-# distances of neighbours.
-_DISTANCE_STEP, _VECTOR_STEP = 0.5, 4.0
+# The defaults of `time_step` that `t_coef` multiplies: of Surface.distance(), in mean squared edge lengths, and of
+# extend(), transport(), log_map() and signed_distance(), in mean squared distances of neighbours.
+_DISTANCE_STEP, VECTOR_STEP = 0.5, 4.0
 
 
 def _matrices(surface, dummy, return_mass):
@@ -18,8 +18,8 @@ def _matrices(surface, dummy, return_mass):
     return (L, scipy.sparse.diags(areas, format="csc")) if return_mass else L
 
 
-def point_cloud_laplacian(points, mollify_factor=_tufted.default_mollify, n_neighbors=30, return_mass=True, *, preset="scan", dummy=True,
-                          threads=0, progress=None):
+def point_cloud_laplacian(points, mollify_factor=_tufted.default_mollify, n_neighbors=30, return_mass=True, *,
+                          preset="scan", dummy=True, threads=0, progress=None):
     """Builds L and M of a point cloud, as robust_laplacian.point_cloud_laplacian.
 
     points: N x 3. mollify_factor: `mollify` of PointCloud. n_neighbors: k >= 3. return_mass: False returns L only.
@@ -34,7 +34,8 @@ def point_cloud_laplacian(points, mollify_factor=_tufted.default_mollify, n_neig
     return _matrices(cloud, dummy, return_mass)
 
 
-def mesh_laplacian(verts, faces, mollify_factor=_tufted.default_mollify, return_mass=True, *, dummy=True, threads=0, progress=None):
+def mesh_laplacian(verts, faces, mollify_factor=_tufted.default_mollify, return_mass=True, *, dummy=True, threads=0,
+                   progress=None):
     """Builds L and M of a triangle mesh, as robust_laplacian.mesh_laplacian.
 
     verts: V x 3. faces: F x 3. All else as in point_cloud_laplacian().
@@ -44,19 +45,31 @@ def mesh_laplacian(verts, faces, mollify_factor=_tufted.default_mollify, return_
     return _matrices(mesh, dummy, return_mass)
 
 
-class _HeatSolver:
-    """Base of the classes below. Their indices are those of points or vertices."""
+class OnSurface:
+    """Base of the solvers that keep a surface."""
 
-    def __init__(self, surface, t_coef):
-        t_coef = check.number(type(self).__name__, "t_coef", t_coef)
-        if not (t_coef > 0 and np.isfinite(t_coef)):
-            raise InvalidInput(f"{type(self).__name__}: t_coef = {t_coef:g}, must be finite and above 0")
-        self._surface, self._t_coef = surface, t_coef
+    def __init__(self, surface):
+        self._surface = surface
 
     @property
     def surface(self):
         """The PointCloud or Mesh that is solved on, with all other methods."""
         return self._surface
+
+
+def checked_coefficient(function, t_coef):
+    t_coef = check.number(function, "t_coef", t_coef)
+    if not (t_coef > 0 and np.isfinite(t_coef)):
+        raise InvalidInput(f"{function}: t_coef = {t_coef:g}, must be finite and above 0")
+    return t_coef
+
+
+class _HeatSolver(OnSurface):
+    """Base of the classes below. Their indices are those of points or vertices."""
+
+    def __init__(self, surface, t_coef):
+        super().__init__(surface)
+        self._t_coef = checked_coefficient(type(self).__name__, t_coef)
 
     def _distances(self, sources):
         return self._surface.distance(sources, method="heat", time_step=_DISTANCE_STEP * self._t_coef)
@@ -66,7 +79,7 @@ class _HeatSolver:
         if level_set_constraint != "ZeroSet":
             raise InvalidInput(f"{type(self).__name__}: level_set_constraint = {level_set_constraint!r}, must be "
                                "'ZeroSet': each curve has the distance 0")
-        step = _VECTOR_STEP * self._t_coef
+        step = VECTOR_STEP * self._t_coef
         query = solver or (lambda curve: self._surface.signed_distance(curve, time_step=step))
         return nearest_of([query(check.indices(type(self).__name__, "curves", curve, len(self._surface)))
                            for curve in curves])
@@ -87,7 +100,7 @@ class _Vectors(_HeatSolver):
         return frames[:, 0], frames[:, 1], frames[:, 2]
 
     def _extended(self, sources, values):
-        return self._surface.extend(sources, values, time_step=_VECTOR_STEP * self._t_coef)
+        return self._surface.extend(sources, values, time_step=VECTOR_STEP * self._t_coef)
 
     def _transported(self, sources, vectors, name):
         surface = self._surface
@@ -97,14 +110,17 @@ class _Vectors(_HeatSolver):
             raise InvalidInput(f"transport_tangent_vectors: vectors has {table.shape[1]} columns, must have 2")
         tangents = surface.frames[:, :2]
         carried = surface.transport(where, np.einsum("si,sij->sj", table, tangents[where]),
-                                    time_step=_VECTOR_STEP * self._t_coef)
+                                    time_step=VECTOR_STEP * self._t_coef)
         return np.einsum("nj,nij->ni", carried, tangents)
 
     def _log_map(self, source, name):
         surface = self._surface
-        source = check.indices("compute_log_map", name, source, len(surface))[0]
+        where = check.indices("compute_log_map", name, source, len(surface))
+        if where.size != 1:
+            raise InvalidInput(f"compute_log_map: {name} has {where.size} indices, must be one")
+        source = where[0]
         x, y = surface.frames[source, :2]
-        coordinates, axes = surface.log_map(source, axis=x, time_step=_VECTOR_STEP * self._t_coef)
+        coordinates, axes = surface.log_map(source, axis=x, time_step=VECTOR_STEP * self._t_coef)
         return coordinates * [1.0, np.sign(axes[1] @ y)]  # negated where log_map() turned the normal
 
 
@@ -153,7 +169,7 @@ class PointCloudHeatSolver(_Vectors):
         normals, tangents = surface._frame_parts()
         side = np.where(np.einsum("ij,ij->i", normals, given) < 0, -1.0, 1.0)[:, None]
         solver = _tufted.SignedDistanceSolver(surface._laplacian, normals * side, tangents,
-                                              _VECTOR_STEP * self._t_coef, surface._solver(), None)
+                                              VECTOR_STEP * self._t_coef, surface._solver(), None)
         return self._signed(curves, level_set_constraint, lambda curve: solver.query(curve, None))
 
 

@@ -4,42 +4,45 @@ import numpy as np
 from . import _arguments as check
 from . import _tufted
 from ._clouds import Mesh, PointCloud
-from ._drop_in import _VECTOR_STEP, nearest_of
+from ._drop_in import VECTOR_STEP, OnSurface, checked_coefficient, nearest_of
 from ._drop_in_files import edges
 from ._tufted import InvalidInput
 
-_PIECES = 8  # of a segment of a curve, whose ends are sources: distances are off by 1/16 of the segment next to it
-_ROUNDING = 1e-12  # of barycentric coordinates that the caller has computed
+# Each segment of a curve becomes this many sources, so distances beside it are off by at most 1/16 of it.
+_PIECES = 8
+# Coordinates below this count as 0: the caller has computed them.
+_ROUNDING = 1e-12
 
 
-class _MeshPlaces:
+class _MeshPlaces(OnSurface):
     """A mesh on which places are given as (vertex, []), (edge, [t]), t from the lower to the higher index of the rows
     of edges(), or (face, [a, b]) and (face, [a, b, c]), barycentric coordinates.
     """
 
     def __init__(self, function, V, F):
         with check.named(function, points="V", faces="F"):
-            self._surface = Mesh(V, F)
+            super().__init__(Mesh(V, F))
         self._edges = edges(V, self._surface.faces)
         self._name = function
 
-    @property
-    def surface(self):
-        """The Mesh that is solved on, with all other methods."""
-        return self._surface
-
-    def _position(self, place):
-        """The vertices of its edge or face that a place lies between, and their weights; of a vertex it alone."""
-        index, *rest = place
+    def _position(self, place, name="curves"):
+        """The vertices of its edge or face that a place lies between, and their weights; of a vertex it alone. `name`
+        is the argument that has the place.
+        """
+        try:
+            index, *rest = place
+        except TypeError:
+            raise InvalidInput(f"{self._name}: {name} has the place {place!r}, must be a tuple as (index, [])") \
+                from None
         given = np.asarray(rest[0] if rest else [], np.float64).reshape(-1)
         if given.size == 0:
-            return check.indices(self._name, "curves", index, len(self._surface)), np.ones(1)
+            return check.indices(self._name, name, index, len(self._surface)), np.ones(1)
         corners = self._edges if given.size == 1 else self._surface.faces
-        index = check.indices(self._name, "curves", index, len(corners))[0]
+        index = check.indices(self._name, name, index, len(corners))[0]
         weights = {1: lambda: np.append(1 - given, given), 2: lambda: np.append(given, 1 - given.sum())}.get(
             given.size, lambda: given)()
         if weights.size > 3 or not (weights >= -_ROUNDING).all() or not weights.sum() > 0:
-            raise InvalidInput(f"{self._name}: curves has the coordinates {given}, must be one to three in [0, 1]")
+            raise InvalidInput(f"{self._name}: {name} has the coordinates {given}, must be one to three in [0, 1]")
         used = weights > _ROUNDING
         return corners[index][used], weights[used]
 
@@ -52,11 +55,11 @@ class _MeshPlaces:
         corners = self._surface.faces[face]
         return np.array([weights[vertices == corner].sum() for corner in corners])
 
-    def _along(self, curve):
+    def _along(self, curve, name="curves"):
         """Faces and barycentric coordinates of points along a curve. Between two places of one face it is straight;
         between others it has a gap.
         """
-        places = [self._position(place) for place in curve]
+        places = [self._position(place, name) for place in curve]
         faces, coordinates = [], []
         for k, (vertices, weights) in enumerate(places):
             ends = places[k + 1:k + 2] or [(vertices, weights)]
@@ -64,31 +67,34 @@ class _MeshPlaces:
             pieces = _PIECES if face >= 0 and k + 1 < len(places) else 1
             face = face if face >= 0 else self._face_around(vertices)
             if face < 0:
-                raise InvalidInput(f"{self._name}: curves has the vertex {vertices[0]}, must be a corner of a face")
+                raise InvalidInput(f"{self._name}: {name} has the vertex {vertices[0]}, must be a corner of a face")
             start = self._in_face(face, vertices, weights)
             end = self._in_face(face, *ends[0]) if pieces > 1 else start
             faces += pieces * [face]
             coordinates += [start + (end - start) * piece / pieces for piece in range(pieces)]
         return faces, coordinates
 
-    def _unsigned(self, curves):
+    def _unsigned(self, curves, points=()):
         faces, coordinates = [], []
-        for curve in curves:
-            more_faces, more_coordinates = self._along(curve)
+        for name, curve in [*(("curves", curve) for curve in curves), *(("points", [place]) for place in points)]:
+            more_faces, more_coordinates = self._along(curve, name)
             faces += more_faces
             coordinates += more_coordinates
         if not faces:
-            return np.full(len(self._surface), np.inf)
+            raise InvalidInput(f"{self._name}: curves has no place, must have at least one")
         return self._surface.distance(faces=np.array(faces), barycentric=np.array(coordinates))
 
-    def _signed_along(self, curve, time_step=_VECTOR_STEP):
+    def _signed_along(self, curve, time_step=VECTOR_STEP):
         """The signed distance by heat from a curve of vertices; other places count as the vertex they are nearest to.
         """
         indices = [int(vertices[weights.argmax()]) for vertices, weights in map(self._position, curve)]
-        return self._surface.signed_distance(indices, time_step=time_step)
+        with check.named(self._name, curve="curves"):
+            return self._surface.signed_distance(indices, time_step=time_step)
 
-    def _signed(self, curve, time_step=_VECTOR_STEP):
-        """The same by marching with the sign of heat, where places lie within edges and faces."""
+    def _signed(self, curve, time_step=VECTOR_STEP):
+        """The signed distance from a curve: by heat if all its places are vertices, otherwise by marching with the
+        sign of heat.
+        """
         by_heat = self._signed_along(curve, time_step)
         if all(len(self._position(place)[0]) == 1 for place in curve):
             return by_heat
@@ -127,7 +133,7 @@ class MeshSignedHeatSolver(_MeshPlaces):
 
     def __init__(self, V, F, t_coef=1.0):
         super().__init__("MeshSignedHeatSolver", V, F)
-        self._time_step = _VECTOR_STEP * check.number("MeshSignedHeatSolver", "t_coef", t_coef)
+        self._time_step = VECTOR_STEP * checked_coefficient("MeshSignedHeatSolver", t_coef)
 
     def compute_distance(self, curves, curve_signs=(), points=(), preserve_source_normals=False,
                          level_set_constraint="ZeroSet", soft_level_set_weight=-1):
@@ -137,7 +143,7 @@ class MeshSignedHeatSolver(_MeshPlaces):
         curves: lists of places as in MeshFastMarchingDistanceSolver. Of a curve with places within edges and faces the
         distance is that of marching, with the sign of heat.
         curve_signs: a boolean for each curve, False for distances without sign; empty: all have one.
-        points: vertices, from which distances have no sign.
+        points: places, or indices of vertices, from which distances have no sign.
         level_set_constraint: must be "ZeroSet". preserve_source_normals, soft_level_set_weight: ignored.
         """
         if level_set_constraint != "ZeroSet":
@@ -146,8 +152,9 @@ class MeshSignedHeatSolver(_MeshPlaces):
         if len(signs) != len(curves):
             raise InvalidInput(f"compute_distance: curve_signs has {len(signs)} values, must have {len(curves)}")
         found = [self._signed(curve, self._time_step) for curve, sign in zip(curves, signs) if sign]
-        unsigned = [curve for curve, sign in zip(curves, signs) if not sign] + [[(point, [])] for point in points]
-        return nearest_of(found + ([self._unsigned(unsigned)] if unsigned else []))
+        unsigned = [curve for curve, sign in zip(curves, signs) if not sign]
+        points = [point if isinstance(point, (tuple, list)) else (point, []) for point in points]
+        return nearest_of(found + ([self._unsigned(unsigned, points)] if unsigned or points else []))
 
 
 class MeshMarchingTrianglesSolver(_MeshPlaces):
@@ -161,12 +168,15 @@ class MeshMarchingTrianglesSolver(_MeshPlaces):
 
     def marching_triangles(self, u, isoval=0.0):
         """The lines on which u, N values, equals isoval: a list of lists of (edge, [t]), rows of edges() and how far
-        along. A closed line ends with its first place.
+        along. A closed line ends with its first place. Where u reaches isoval at a vertex, or triangles coincide, one
+        of the edges there is given.
         """
+        isoval = check.number("marching_triangles", "isoval", isoval)
         with check.named("marching_triangles", field="u", values="isoval"):
             lines = self._surface.isolines(u, isoval)
         values = np.asarray(u, np.float64).reshape(-1)[self._edges] - isoval
-        crossed = np.flatnonzero((values[:, 0] >= 0) != (values[:, 1] >= 0))
+        finite = np.isfinite(values).all(axis=1)
+        crossed = np.flatnonzero(finite & ((values[:, 0] >= 0) != (values[:, 1] >= 0)))
         if not crossed.size:
             return []
         t = values[crossed, 0] / (values[crossed, 0] - values[crossed, 1])
@@ -188,17 +198,12 @@ def marching_triangles(V, F, u, isoval=0.0):
     return MeshMarchingTrianglesSolver(V, F).marching_triangles(u, isoval)
 
 
-class _MeshLines:
+class _MeshLines(OnSurface):
     """Base of the classes below. t_coef is ignored, as it is in potpourri3d."""
 
     def __init__(self, V, F, t_coef=1.0):
         with check.named(type(self).__name__, points="V", faces="F"):
-            self._surface = Mesh(V, F)
-
-    @property
-    def surface(self):
-        """The Mesh that is solved on, with all other methods."""
-        return self._surface
+            super().__init__(Mesh(V, F))
 
 
 class EdgeFlipGeodesicSolver(_MeshLines):

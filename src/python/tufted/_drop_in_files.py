@@ -6,7 +6,7 @@ import scipy.sparse
 
 from . import _arguments as check
 from . import _tufted
-from ._shape import lumped_areas, triangle_areas
+from ._shape import lumped_areas, scaled, triangle_areas
 from ._tufted import InvalidInput
 
 
@@ -36,10 +36,13 @@ def write_mesh(V, F, filename, UV_coords=None, UV_type=None):
 
     V: N x 3. F: F x D, or a list of lists of indices. filename: an existing file is replaced.
     UV_coords: U x 2 texture coordinates, for OBJ only. UV_type: whose they are: "per-vertex", "per-face", "per-corner".
+    Raises IoError if the file cannot be written.
     """
     points = check.rows_of_three("write_mesh", "V", V)
     polygons = [check.indices("write_mesh", "F", polygon, len(points)).tolist() for polygon in F]
     uv, corners = np.zeros((0, 2)), None
+    if UV_coords is not None and UV_type is None:  # potpourri3d would leave them out without a word
+        raise InvalidInput("write_mesh: UV_coords is given, must be None without UV_type")
     if UV_type is not None:
         counts = {"per-vertex": len(points), "per-face": len(polygons), "per-corner": sum(map(len, polygons))}
         if UV_type not in counts:
@@ -54,7 +57,7 @@ def write_mesh(V, F, filename, UV_coords=None, UV_type=None):
 
 def write_point_cloud(V, filename):
     """Writes points, N x 3, to an OBJ, PLY or OFF file, by the ending of its name filename; a file of that name is
-    replaced.
+    replaced. Raises IoError if it cannot be written.
     """
     _write(filename, check.rows_of_three("write_point_cloud", "V", V), [], np.zeros((0, 2)), None)
 
@@ -78,31 +81,32 @@ def _write(filename, points, polygons, uv, corners):
     else:
         raise InvalidInput(f"write_mesh: filename = {os.fspath(filename)!r}, must end in .obj"
                            + (" to hold UV_coords" if corners else ", .ply or .off"))
-    with open(filename, "w", encoding="ascii") as file:
-        file.write("\n".join([*lines, ""]))
+    check.write(filename, "\n".join([*lines, ""]).encode("ascii"))
 
 
 def face_areas(V, F):
     """The areas of triangles F (F x 3) with the corners V (N x 3): F values."""
-    return triangle_areas(*_triangles("face_areas", V, F))
+    points, faces, unit = _triangles("face_areas", V, F)
+    return triangle_areas(points, faces) * unit * unit
 
 
 def vertex_areas(V, F):
     """A third of the areas of the triangles F (F x 3) at each vertex of V (N x 3): N values."""
-    return lumped_areas(*_triangles("vertex_areas", V, F))
+    points, faces, unit = _triangles("vertex_areas", V, F)
+    return lumped_areas(points, faces) * unit * unit
 
 
 def cotan_laplacian(V, F, denom_eps=0.0):
     """The cotan Laplacian of the triangles as they are: N x N csr_matrix, positive semidefinite, without the guarantees
     of mesh_laplacian(). V: N x 3. F: F x 3. denom_eps: added to twice the area of a triangle where it is divided by.
     """
-    points, faces = _triangles("cotan_laplacian", V, F)
+    points, faces, unit = _triangles("cotan_laplacian", V, F)
     corners = [points[faces[:, k]] for k in range(3)]
     rows, columns, weights = [], [], []
     for k in range(3):
         first, second = (k + 1) % 3, (k + 2) % 3
         u, v = corners[first] - corners[k], corners[second] - corners[k]
-        sine = np.linalg.norm(np.cross(u, v), axis=1) + denom_eps
+        sine = np.linalg.norm(np.cross(u, v), axis=1) + denom_eps / unit / unit
         rows.append(faces[:, first])
         columns.append(faces[:, second])
         weights.append(np.einsum("ij,ij->i", u, v) / sine / 2)
@@ -115,13 +119,21 @@ def cotan_laplacian(V, F, denom_eps=0.0):
 def edges(V, F):
     """The edges of polygons F, each once with its lower index first, in ascending order: E x 2 int32. V: N x 3."""
     count = len(check.rows_of_three("edges", "V", V))
-    polygons = [check.indices("edges", "F", polygon, count) for polygon in F]
-    pairs = [np.stack([polygon, np.roll(polygon, -1)], axis=1) for polygon in polygons]
-    return np.unique(np.sort(np.concatenate([np.zeros((0, 2), np.int32), *pairs]), axis=1), axis=0)
+    if isinstance(F, np.ndarray) and F.ndim == 2:
+        polygons = [check.indices("edges", "F", F.reshape(-1), count, empty=True).reshape(F.shape)]
+    else:
+        polygons = [check.indices("edges", "F", polygon, count) for polygon in F]
+    pairs = [np.stack([each, np.roll(each, -1, axis=-1)], axis=-1).reshape(-1, 2) for each in polygons]
+    pairs = np.sort(np.concatenate([np.zeros((0, 2), np.int32), *pairs]), axis=1).astype(np.int64)
+    # A number for each pair, as numbers are sorted much faster than rows.
+    numbers = np.unique(pairs[:, 0] * count + pairs[:, 1])
+    return np.stack(np.divmod(numbers, max(count, 1)), axis=1).astype(np.int32)
 
 
 def _triangles(function, V, F):
+    """Points in [-1, 1], triangles, and the unit of length of the points."""
     points = check.rows_of_three(function, "V", V)
     faces = check.triangles(function, "F", F)
     check.indices(function, "F", faces.reshape(-1), len(points), empty=True)
-    return points, faces
+    points, unit = scaled(points)
+    return points, faces, unit

@@ -1,6 +1,5 @@
 """The methods of Surface that show it: pictures, pages, and what a notebook shows."""
 import html
-import os
 
 import numpy as np
 
@@ -28,7 +27,8 @@ class Figures:
         lines), "color" (N x 3, 0 to 255) or "direction" (N x 3, unit vectors). None: "label" for integers and booleans,
         "vector" for N x 3, otherwise "scalar".
         column: which one is shown, counted from 0; None: the first that is not constant.
-        line: a line on the surface: K x 3 points, or a result of path(), trace() or isolines().
+        line: a line on the surface: K x 3 points, a result of path(), path_through() or trace(), or one of the lines of
+        isolines().
         size: width and height in pixels, 16 to 8192.
         camera: (azimuth, elevation) in degrees or (azimuth, elevation, zoom); "top": a plan in parallel projection;
         None: chosen. up: the axis that points up: "x", "y", "z", "-x", "-y" or "-z"; None: chosen.
@@ -46,11 +46,15 @@ class Figures:
         """
         scene, look = self._scene("picture", values, kind, column, line, camera, up, color_map, title)
         pixels = check.integers("picture", "size", size)
-        ends = None if range is None else check.columns("picture", "range", range, 2)[0][:, 0]
+        ends = None if range is None else check.columns("picture", "range", range, 2)[0]
+        if ends is not None and ends.shape != (2, 1):
+            raise InvalidInput(f"picture: range has the shape {' x '.join(map(str, ends.shape))}, must be 2")
         if pixels.shape != (2,):
             raise InvalidInput(f"picture: size = {size!r}, must be (width, height)")
+        background = check.text("picture", "background", background)
         with check.named("picture"):
-            return Picture(_tufted.picture(scene, look, pixels.tolist(), background, ends,
+            return Picture(_tufted.picture(scene, look, pixels.tolist(), background,
+                                           None if ends is None else ends[:, 0],
                                            None if isolines is None else bool(isolines), bool(light), bool(legend),
                                            self._solving["threads"]))
 
@@ -61,7 +65,7 @@ class Figures:
 
         values: as in picture(); all entries of a dict can be chosen in the page. None: the areas of the points, their
         components and the boundary.
-        path: a file to which the page is written; None: none.
+        path: a file to which the page is written; None: none. Raises IoError if it cannot be written.
         kind, column, line, camera, up, color_map, title: as in picture(); what the page shows at first.
         Returns the text of the page. A notebook shows it as an interactive view.
         """
@@ -70,8 +74,7 @@ class Figures:
         with check.named("page"):
             page = Page(_tufted.page(scene, look))
         if path is not None:
-            with open(os.fspath(path), "w", encoding="utf-8") as file:
-                file.write(page)
+            check.write(path, page.encode("utf-8"))
         return page
 
     def _repr_html_(self):
@@ -89,6 +92,9 @@ class Figures:
 
     def _scene(self, function, values, kind, column, line, camera, up, color_map, title, own_fields=None):
         """The scene, and the options that pages and pictures share."""
+        names = values.keys() if isinstance(values, dict) else () if values is None else ("values",)
+        for name in kind.keys() - set(names) if isinstance(kind, dict) else ():
+            raise InvalidInput(f"{function}: kind has the name {name!r}, must be one of values")
         fields = own_fields() if own_fields else self._fields(function, values, kind)
         faces = np.zeros((0, 3), np.int32) if self._faces is None else self._faces
         line = np.zeros((0, 3)) if line is None else check.rows_of_three(function, "line",
@@ -97,7 +103,8 @@ class Figures:
         with check.named(function, kind="kind"):
             scene = _tufted.Scene(name, self._points, faces, self._frame_parts()[0], fields, line)
         shown = -1 if not fields else 0
-        look = {"field": shown, "column": _column(function, fields, column), "color_map": color_map or "",
+        color_map = "" if color_map is None else check.text(function, "color_map", color_map)
+        look = {"field": shown, "column": _column(function, fields, column), "color_map": color_map,
                 "up": _axis(function, up), **_camera(function, camera)}
         return scene, look
 
@@ -108,11 +115,13 @@ class Figures:
         kinds = kind if isinstance(kind, dict) else dict.fromkeys(named, kind)
         fields = []
         for name, given in named.items():
-            given = check._array(function, "values", given)
+            given = check.array(function, "values", given)
             is_label = given.dtype.kind in "iub"
             table, _ = check.columns(function, "values", given.astype(float) if is_label else given, len(self))
             usual = "label" if is_label else "vector" if table.shape[1] == 3 else "scalar"
-            fields.append((str(name), kinds.get(name) or usual, table, "", [], ""))
+            chosen = kinds.get(name)
+            chosen = usual if chosen is None else check.text(function, "kind", chosen)
+            fields.append((str(name), chosen, table, "", [], ""))
         return fields
 
 

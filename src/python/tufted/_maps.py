@@ -27,9 +27,11 @@ def functional_map(source, target, descriptors=None, *, landmarks=(), weights=No
     the plane of symmetry.
 
     source, target: surfaces, clouds or meshes.
-    descriptors: of the source N x D, and of the target N' x D, in a pair; signatures must be computed at the same times
-    or energies. None: wave kernel signatures at the same energies.
-    landmarks: P x 2, an index on the source and the corresponding one on the target; adds wave kernels around them.
+    descriptors: of the source N x D, and of the target N' x D, in a pair. Times of signatures must be in proportion to
+    the areas of the shapes, and energies differ by the logarithm of their ratio, see hks() and wks(); a factor of times
+    and a shift of energies is not checked, as the shapes may have different units. None: wave kernel signatures.
+    landmarks: P x 2, an index on the source and the corresponding one on the target, of points that take part; adds
+    wave kernels around them.
     weights: D values >= 0, one per column of `descriptors`, that multiply its misfit; None: ones.
     k: number of eigenpairs, zeros included; fewer if a shape has fewer.
     commutativity: >= 0; larger values ask more for a map that commutes with the Laplacians. Eigenvalues are divided by
@@ -50,7 +52,7 @@ def functional_map(source, target, descriptors=None, *, landmarks=(), weights=No
     if not (commutativity >= 0 and np.isfinite(commutativity)):
         raise InvalidInput(f"{name}: commutativity = {commutativity:g}, must be finite and at least 0")
     k, progress = check.whole(name, "k", k, 1), check.callback(name, progress)
-    bases = _bases(shapes, max(k, _PAIRS), progress)
+    bases = _bases(name, shapes, max(k, _PAIRS), progress)
     compared, weight = _compared(name, shapes, bases, descriptors, landmarks, weights)
     k = min(k, len(bases[0].values))
     A, B = (basis.coefficients(functions, k) * weight for basis, functions in zip(bases, compared))
@@ -58,8 +60,11 @@ def functional_map(source, target, descriptors=None, *, landmarks=(), weights=No
     D, E = (basis.values[:k] for basis in bases)
     penalties = commutativity * ((D - E[:, None]) / max(D[-1], E[-1], np.finfo(float).tiny)) ** 2
     gram, right = A @ A.T, B @ A.T
-    return np.stack([np.linalg.lstsq(gram + np.diag(penalty), row, rcond=None)[0]
-                     for penalty, row in zip(penalties, right)])
+    C = np.empty((k, k))
+    for row in range(k):
+        check.report(name, progress, row / k)
+        C[row] = _least_solution(gram + np.diag(penalties[row]), right[row])
+    return C
 
 
 def zoom_out(source, target, start, *, k=100, step=1, samples=1000, progress=None):
@@ -67,7 +72,8 @@ def zoom_out(source, target, start, *, k=100, step=1, samples=1000, progress=Non
     from point to point of a functional map, and the functional map with `step` more eigenpairs of that.
 
     source, target: surfaces, clouds or meshes.
-    start: C of functional_map(), or to_source: for each point of the target one of the source, negative for none.
+    start: C of functional_map(), or to_source: for each point of the target one of the source, negative for none. A
+    matrix of k rows or more is returned as it is.
     k: number of eigenpairs at the end; fewer if a shape has fewer.
     step: eigenpairs that each turn adds, >= 1; larger values are faster.
     samples: about so many points of the target, evenly spread, take part in the turns, at least 2 k, and ten times as
@@ -79,8 +85,8 @@ def zoom_out(source, target, start, *, k=100, step=1, samples=1000, progress=Non
     shapes = _shapes(name, source, target)
     k, step = check.whole(name, "k", k, 1), check.whole(name, "step", step, 1)
     samples = None if samples is None else max(check.whole(name, "samples", samples, 1), 2 * k)
-    progress, start = check.callback(name, progress), np.asarray(start)
-    first, second = bases = _bases(shapes, max(k, len(start) if start.ndim == 2 else 1), progress)
+    progress, start = check.callback(name, progress), check.array(name, "start", start)
+    first, second = bases = _bases(name, shapes, max(k, len(start) if start.ndim == 2 else 1), progress)
     k, points = min(k, len(first.values)), second.sample(samples)
     # Images are found among ten times as many points: a third of the spacing of the samples is near enough.
     candidates = first.sample(None if samples is None else 10 * samples)
@@ -102,8 +108,10 @@ def point_maps(source, target, C, *, progress=None):
     Returns to_target (N indices of points on the target) and to_source (N' indices of points on the source), -1 at
     isolated and non-finite points. Values on the source are carried to the target by values[to_source].
     """
-    bases = _bases(_shapes("point_maps", source, target), len(np.atleast_2d(C)), check.callback("point_maps", progress))
-    C = _matrix("point_maps", "C", C, bases)
+    name = "point_maps"
+    C = check.array(name, "C", C)
+    bases = _bases(name, _shapes(name, source, target), len(np.atleast_2d(C)), check.callback(name, progress))
+    C = _matrix(name, "C", C, bases)
     first, second = bases
     return PointMaps(first.nearest_of(second, C.T), second.nearest_of(first, C))
 
@@ -111,10 +119,10 @@ def point_maps(source, target, C, *, progress=None):
 class _Basis:
     """The first k eigenpairs of a surface scaled to area 1, at all its points."""
 
-    def __init__(self, surface, k, progress):
+    def __init__(self, function, surface, k, progress):
         area = surface.M.sum()
         if not area > 0:
-            raise InvalidInput("functional_map: a shape has the area 0, must have points that take part")
+            raise InvalidInput(f"{function}: a shape has the area 0, must have points that take part")
         values, vectors = surface._first_pairs(k, progress)
         self.values, self.vectors, self.masses = values * area, vectors * np.sqrt(area), surface.M / area
         self.takes_part = surface.status[surface.representative] == 0
@@ -123,9 +131,12 @@ class _Basis:
     def first(self, k):
         self.values, self.vectors = self.values[:k], self.vectors[:, :k]
 
+    def norms(self, functions):
+        return np.sqrt(self.masses @ functions**2)
+
     def coefficients(self, functions, k):
         """The first k coefficients, k x D, of functions divided by their norms."""
-        norms = np.sqrt(self.masses @ functions**2)
+        norms = self.norms(functions)
         return self.vectors[:, :k].T @ (self.masses[:, None] * functions) / np.where(norms > 0, norms, 1)
 
     def wave_weights(self, energies, width):
@@ -175,21 +186,31 @@ def _shapes(function, source, target):
     return source, target
 
 
-def _bases(shapes, k, progress):
+def _bases(function, shapes, k, progress):
     """Bases of equally many pairs, at most k."""
-    bases = [_Basis(shape, k, progress) for shape in shapes]
+    bases = [_Basis(function, shape, k, progress) for shape in shapes]
     least = min(len(basis.values) for basis in bases)
     for basis in bases:
         basis.first(least)
     return bases
 
 
+def _least_solution(matrix, right):
+    """The solution of least norm; several descriptors may be too few for a regular matrix."""
+    from scipy.linalg import lstsq  # slow to import
+    return lstsq(matrix, right, cond=len(matrix) * np.finfo(float).eps, lapack_driver="gelsy", check_finite=False)[0]
+
+
 def _matrix(function, name, value, bases):
-    table, _ = check.columns(function, name, value, len(np.atleast_1d(value)))
+    table, flat = check.columns(function, name, value, len(np.atleast_1d(value)))
     most = len(bases[0].values)
-    if table.shape[0] != table.shape[1] or len(table) > most or not np.isfinite(table).all():
-        raise InvalidInput(f"{function}: {name} has the shape {' x '.join(map(str, np.shape(value)))}, must be k x k, "
-                           f"finite, k at most {most}, the eigenpairs that both shapes have")
+    if flat or not table.size or table.shape[0] != table.shape[1]:
+        raise InvalidInput(f"{function}: {name} has the shape {' x '.join(map(str, np.shape(value)))}, must be k x k")
+    if len(table) > most:
+        raise InvalidInput(f"{function}: {name} has {len(table)} rows, must have at most {most}, the eigenpairs that "
+                           "both shapes have")
+    if not np.isfinite(table).all():
+        raise InvalidInput(f"{function}: {name} has a value that is not finite")
     return table
 
 
@@ -199,6 +220,8 @@ def _points(function, name, value, shapes):
     if points.shape != (len(target),) or points.max(initial=-1) >= len(source):
         raise InvalidInput(f"{function}: {name} must be a matrix, or {len(target)} indices below {len(source)}, one "
                            "for each point of the target")
+    if points.max(initial=-1) < 0:
+        raise InvalidInput(f"{function}: {name} has no index of at least 0, must have one")
     return points
 
 
@@ -223,9 +246,17 @@ def _compared(function, shapes, bases, descriptors, landmarks, weights):
     columns = []
     for side, (shape, basis, wave) in enumerate(zip(shapes, bases, waves)):
         places = check.indices(function, "landmarks", pairs[:, side], len(shape), empty=True)
+        outside = places[~basis.takes_part[places]]
+        if outside.size:
+            raise InvalidInput(f"{function}: landmarks has {outside[0]}, a point of the {('source', 'target')[side]} "
+                               "that takes no part")
         around = [basis.vectors @ (wave * basis.vectors[place][:, None]) for place in places]
         columns.append(np.hstack([given[side], *around]))
-    return columns, np.concatenate([np.sqrt(weight), np.ones(columns[0].shape[1] - count)])
+    weight = np.concatenate([np.sqrt(weight), np.ones(columns[0].shape[1] - count)])
+    if not np.logical_and.reduce([weight > 0, *(basis.norms(part) > 0 for basis, part in zip(bases, columns))]).any():
+        raise InvalidInput(f"{function}: descriptors have no column that is not 0 and has a weight above 0, must have "
+                           "one")
+    return columns, weight
 
 
 def _shared_energies(bases):
@@ -243,8 +274,9 @@ def _pair(function, shapes, descriptors):
         raise InvalidInput(f"{function}: descriptors must be a pair, of the source and of the target")
     computed = [vars(each) for each in descriptors if isinstance(each, Signature) and vars(each)]
     if len(computed) == 2 and not _agree(*computed):
-        raise InvalidInput(f"{function}: descriptors are signatures at different times or energies, must be at the "
-                           "same: b.hks(a.hks().times), b.wks(first.energies, width=first.width)")
+        raise InvalidInput(f"{function}: descriptors are signatures at different times or energies, must have times in "
+                           "proportion to the areas, or energies shifted by the logarithm of their ratio, and the same "
+                           "width: first = a.hks(), b.hks(first.times * b.M.sum() / a.M.sum())")
     tables = [check.columns(function, "descriptors", each, len(shape))[0] for each, shape in zip(descriptors, shapes)]
     if tables[0].shape[1] != tables[1].shape[1]:
         raise InvalidInput(f"{function}: descriptors have {tables[0].shape[1]} and {tables[1].shape[1]} columns, must "
@@ -257,4 +289,14 @@ def _pair(function, shapes, descriptors):
 
 
 def _agree(first, second):
-    return first.keys() == second.keys() and all(np.array_equal(first[name], second[name]) for name in first)
+    """Whether signatures are computed at times in one proportion, or at energies that are shifted: the shapes may have
+    different units.
+    """
+    if first.keys() != second.keys():
+        return False
+    a, b = (each["times" if "times" in first else "energies"] for each in (first, second))
+    if a.shape != b.shape:
+        return False
+    if "times" in first:
+        return np.allclose(a * b.sum(), b * a.sum(), rtol=1e-9, atol=0)
+    return np.allclose(a - a.mean(), b - b.mean(), atol=1e-9) and np.isclose(first["width"], second["width"])

@@ -1,10 +1,11 @@
 """Results of methods that return several values, or something to look at."""
 import html
-import os
 from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse
+
+from . import _arguments as check
 
 
 class TuftedWarning(UserWarning):
@@ -23,9 +24,13 @@ class Signature(np.ndarray):
     """The N x T array of Surface.hks() or Surface.wks(), which knows where its columns were computed.
 
     times: T times of hks(), length^2. energies, width: T energies of wks() and their width, natural logarithms of
-    eigenvalues. Those of the other kind are None, and all are None on parts and on results of arithmetic.
+    eigenvalues. Those of the other kind are None, and all are None on parts. Copies and pickles lose the times and
+    energies, too, and results of arithmetic, sums and maxima are plain arrays and numbers.
     """
     times = energies = width = None
+
+    def __array_wrap__(self, array, context=None, return_scalar=False):
+        return np.asarray(array)[()]
 
 
 def signature(values, **where):
@@ -134,9 +139,8 @@ class Picture(NamedTuple):
     png: bytes
 
     def save(self, path):
-        """Writes the picture to a file. path: its name, which should end in .png."""
-        with open(os.fspath(path), "wb") as file:
-            file.write(self.png)
+        """Writes the picture to a file. path: its name, which should end in .png. Raises IoError if it cannot."""
+        check.write(path, self.png)
 
     def _repr_png_(self):
         return self.png

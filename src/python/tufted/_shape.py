@@ -7,7 +7,15 @@ import scipy.sparse
 from . import _arguments as check
 from . import _tufted
 from ._results import Curvature, Deformation, MinimalSurface, Parameterization, Segments, TuftedWarning
-from ._tufted import InvalidInput
+from ._tufted import InvalidInput, SolverFailure
+
+
+def scaled(points):
+    """Points divided by a power of two, so that their coordinates lie in [-1, 1] and squares of them neither overflow
+    nor vanish, and this power. The division rounds nothing.
+    """
+    _, exponent = np.frexp(abs(points[np.isfinite(points)]).max(initial=0))
+    return np.ldexp(points, -exponent), np.ldexp(1.0, exponent)
 
 
 def triangle_areas(points, faces):
@@ -21,13 +29,30 @@ def lumped_areas(points, faces):
     return np.bincount(faces.ravel(), np.repeat(triangle_areas(points, faces) / 3, 3), minlength=len(points))
 
 
-def _flowed(L, masses, time_step, x):
-    """Solves (M + t L) y = M x, one implicit step."""
+def _centered(points, masses, labels):
+    """Points with the middle of each component at 0 and its area 1, and the middles and the square roots of areas."""
+    area = np.bincount(labels, masses)[:, None]
+    middle = np.stack([np.bincount(labels, masses * column) for column in points.T], axis=1) / area
+    size = np.sqrt(area)
+    return (points - middle[labels]) / size[labels], middle, size
+
+
+def _flowed(L, faces, labels, time_step, x):
+    """Solves (M + t L) y = M x, one implicit step, and scales each component back to area 1."""
     from scipy.sparse.linalg import splu  # slow to import
     # Points of collapsed triangles have no mass; the least one keeps the matrix regular where L is 0, too.
+    masses = lumped_areas(x, faces)
     masses = np.maximum(masses, np.finfo(float).tiny + 1e-12 * masses.mean())
-    return splu((scipy.sparse.diags(masses) + time_step * L).tocsc(), permc_spec="MMD_AT_PLUS_A",
-                options={"SymmetricMode": True}).solve(masses[:, None] * x)
+    try:
+        found = splu((scipy.sparse.diags(masses) + time_step * L).tocsc(), permc_spec="MMD_AT_PLUS_A",
+                     options={"SymmetricMode": True}).solve(masses[:, None] * x)
+    except RuntimeError:  # exactly singular
+        found = np.full(x.shape, np.nan)
+    masses = lumped_areas(found, faces)
+    # Of a component whose area shrinks to less than that, less than half of the digits are left.
+    if not np.bincount(labels, masses).min() > np.finfo(float).eps:
+        raise SolverFailure(f"mean_curvature_flow: a step cannot be solved with time_step = {time_step:g}")
+    return _centered(found, masses, labels)[0]
 
 
 class Shape:
@@ -130,9 +155,10 @@ class Shape:
         closed surface without handles into a sphere and, unlike the flow itself, pinches no necks. Each step solves
         (M + t L) x = M x_old with the areas M of the moved triangles and the L of this surface.
 
-        steps: number of steps, >= 1. time_step: t, > 0, as a share of the surface's area.
-        Returns N x 3, scaled about the middle of the surface so that its area stays; isolated and non-finite points
-        keep their place.
+        steps: number of steps, >= 1. Coarse samples drift away from the sphere again after tens of steps, so stop
+        when a step changes little. time_step: t, > 0, as a share of the area of each connected component.
+        Returns N x 3, each component scaled about its middle so that its area stays; isolated and non-finite points,
+        and components without area, keep their place. Raises SolverFailure if a step cannot be solved.
 
         >>> egg = tufted.PointCloud(points * [2, 1, 1])
         >>> ball = egg.mean_curvature_flow(steps=30, time_step=0.05)
@@ -145,25 +171,26 @@ class Shape:
         if not (time_step > 0 and np.isfinite(time_step)):
             raise InvalidInput(f"mean_curvature_flow: time_step = {time_step:g}, must be finite and above 0")
         progress = check.callback("mean_curvature_flow", progress)
-        moving = np.flatnonzero(self.status == 0)
+        positions, unit = scaled(self.positions)
+        faces = self._joined_faces("mean_curvature_flow")
+        faces = faces[(self.status[faces] == 0).all(axis=1)]
+        labels, masses = self.components, lumped_areas(positions, faces)
+        area = np.bincount(labels[labels >= 0], masses[labels >= 0], minlength=1)
+        moving = np.flatnonzero((self.status == 0) & (area[labels] > 0))
+        moved = self._points.copy()
         if not moving.size:
-            return self._points.copy()
+            return moved
         numbers = np.full(len(self), -1)
         numbers[moving] = np.arange(moving.size)
-        faces = numbers[self._joined_faces("mean_curvature_flow")]
+        faces = numbers[faces]
         faces = faces[(faces >= 0).all(axis=1)]
-        L, x = self.L[moving][:, moving], self.positions[moving]
-        masses = lumped_areas(x, faces)
-        area, middle = masses.sum(), masses @ x / masses.sum()
-        x = x - middle
+        _, labels = np.unique(labels[moving], return_inverse=True)
+        L = self.L[moving][:, moving]
+        x, middle, size = _centered(positions[moving], masses[moving], labels)
         for step in range(steps):
             check.report("mean_curvature_flow", progress, step / steps)
-            x = _flowed(L, masses, time_step * area, x)
-            masses = lumped_areas(x, faces)
-            scale = np.sqrt(area / masses.sum())
-            x, masses = (x - masses @ x / masses.sum()) * scale, masses * scale**2
-        moved = self._points.copy()
-        moved[moving] = x + middle
+            x = _flowed(L, faces, labels, time_step, x)
+        moved[moving] = (x * size[labels] + middle[labels]) * unit
         return np.where((self.status == 2)[:, None], moved[self.representative], moved)
 
     def parameterize(self, *, method="conformal", weights="laplacian", rim=None, rim_positions=None, progress=None):
@@ -236,7 +263,7 @@ class Shape:
         """`fixed`, N booleans, as bytes; None stays None."""
         if fixed is None:
             return None
-        fixed = check._array(function, "fixed", fixed)
+        fixed = check.array(function, "fixed", fixed)
         if fixed.shape != (len(self),):
             raise InvalidInput(f"{function}: fixed has {fixed.size} values, must have {len(self)}, one per point")
         return np.ascontiguousarray(fixed.astype(bool), dtype=np.uint8)

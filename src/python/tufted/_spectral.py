@@ -30,7 +30,7 @@ class Spectral:
 
         times: T values >= 0, length^2; None: `samples` times at which k pairs suffice, evenly spaced on a logarithmic
         scale. They follow from the eigenvalues, so each surface has its own: to compare two, give the second one the
-        `times` of the first one's result.
+        `times` of the first one's result, times the ratio of the areas: b.hks(first.times * b.M.sum() / a.M.sum()).
         k: number of positive eigenvalues; all if there are fewer. The last result of spectrum() is
         used if it has as many.
         spectrum: a result of spectrum(), used instead of k.
@@ -54,7 +54,8 @@ class Spectral:
         (Aubry, Schlickewei, Cremers 2011).
 
         energies: E natural logarithms of eigenvalues; None: `samples` of them, evenly spaced between those of the
-        smallest and the largest positive eigenvalue, so each surface has its own; see hks().
+        smallest and the largest positive eigenvalue, so each surface has its own: to compare two, give the second one
+        the width of the first one's result, and b.wks(first.energies - np.log(b.M.sum() / a.M.sum()), ...).
         width: standard deviation of the energy; None: seven times the distance between the first two energies.
         k, spectrum: as in hks().
         Returns N x E, 1/length^2, with the attributes `energies` and `width`.
