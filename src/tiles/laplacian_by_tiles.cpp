@@ -131,44 +131,28 @@ class TileBuilds {
     return !again.empty();
   }
 
-  void build(TileTask first) {
-    std::vector<TileTask> tasks = {std::move(first)};
-    while (!tasks.empty()) {
+  void build(TileTask task) {
+    while (!task.own.empty()) {
       ask(options_, "tiles", share_);
-      TileTask task = std::move(tasks.back());
-      tasks.pop_back();
-      if (task.own.empty()) continue;
       Tile tile(points_, scaling_, task);
       tile.holdMargin(options_.cloud);
-      if (tile.heldPoints() > most_points_) {
-        if (task.own.size() == 1) refuseLarge(tile.heldPoints());
-        halve(task, tasks);
-        continue;
-      }
+      if (tile.heldPoints() > most_points_) refuseLarge(tile.heldPoints());
       most_held_ = std::max(most_held_, tile.heldPoints());
       all_held_ += tile.heldPoints();
       ++builds_;
       tile.build(options_.cloud);
       for (const auto& pair : tile.farPairs())
         if (std::binary_search(tile.complete().begin(), tile.complete().end(), pair.first)) far_pairs_.push_back(pair);
-      tasks.push_back(tile.rest());
-      const TileRows rows = tile.rows();
-      if (rows.point.empty()) continue;
-      built_.push_back({{tile.complete(), task.required}, tile.neededCells(), countsOf(rows)});
-      take_(rows);
+      if (const TileRows rows = tile.rows(); !rows.point.empty()) {
+        built_.push_back({{tile.complete(), task.required}, tile.neededCells(), countsOf(rows)});
+        take_(rows);
+      }
+      task = tile.rest();
     }
   }
 
-  /// Adds two tasks of half of the cells each. They begin with the usual margin, because most of what a tile lacked may
-  /// be for the other half.
-  static void halve(const TileTask& task, std::vector<TileTask>& tasks) {
-    const auto middle = task.own.begin() + std::ssize(task.own) / 2;
-    tasks.push_back({{middle, task.own.end()}, task.required});
-    tasks.push_back({{task.own.begin(), middle}, task.required});
-  }
-
   [[noreturn]] void refuseLarge(std::int64_t held) const {
-    refuse("a single cell holds " + std::to_string(held) + " points with its margin, must be at most " +
+    refuse("a tile holds " + std::to_string(held) + " points with its margin, must be at most " +
            std::to_string(most_points_) + ": give more memory, or leave out points far from the surface");
   }
 
