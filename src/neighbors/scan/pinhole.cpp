@@ -1,12 +1,12 @@
 #include "neighbors/scan/pinhole.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
 
 #include "base/buffer.h"
-#include "base/symmetric_eigen.h"
 #include "neighbors/scan/pixel_fill.h"
 #include "tufted/scan_structure.h"
 
@@ -51,7 +51,8 @@ Eigen::Matrix3d fitCamera(std::span<const Sighting> sightings) {
       normal.selfadjointView<Eigen::Lower>().rankUpdate(equation);
     }
   }
-  const Eigen::Matrix<double, 9, 1> rows = symmetricEigen(Eigen::MatrixXd(normal)).eigenvectors().col(0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
+  const Eigen::Matrix<double, 9, 1> rows = solver.eigenvectors().col(0);
   Eigen::Matrix3d camera;
   camera << rows.head<3>().transpose(), rows.segment<3>(3).transpose(), rows.tail<3>().transpose();
   return camera;
