@@ -1,6 +1,7 @@
 // Clouds built by tiles.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ TEST_F(Tiled, FilesHoldTheAreasOfTheWhole) {
   run(build({"--keep-noise", "--memory", "0.5G", "--crop", "-1,-1,0,1,1,1", "--out", in("half")}));
   const std::size_t half = values("half/M.npy").size();
   EXPECT_LT(half, 1200u);
-  EXPECT_EQ(values("half/file_row.npy").size(), half);
+  EXPECT_EQ(values<std::int32_t>("half/file_row.npy").size(), half);
   EXPECT_FALSE(std::filesystem::exists(in("tiles/file_row.npy")));
   run(build({"--preset", "clean", "--memory", "1e9GB", "--out", in("much")}));
   EXPECT_EQ(values("much/M.npy"), values("whole/M.npy"));
