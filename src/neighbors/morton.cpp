@@ -14,8 +14,7 @@ namespace {
 
 constexpr int axis_bits = MortonGrid::axis_bits;
 constexpr double axis_cells = 1 << axis_bits;
-/// Cells per median spread: the grid covers 32 spreads, and points outside fall into its border.
-constexpr double cells = 1 << 16;
+constexpr double cells = 1 << MortonGrid::spread_bits;  // per median spread
 
 /// Spreads the low 21 bits of v to every third bit.
 std::uint64_t spreadBits(std::uint64_t v) {

@@ -136,8 +136,8 @@ Cells SortedPoints::write(const PointSource& source, const Scaling& scaling) {
         if (batch.size() == batch_size) writeBatch();
       });
   writeBatch();
-  // 2^16 cells per spread at the last level.
-  return {std::ldexp(1.0, MortonGrid::axis_bits - 16 - counts.level), std::move(begin), std::move(boxes)};
+  return {std::ldexp(1.0, MortonGrid::axis_bits - MortonGrid::spread_bits - counts.level), std::move(begin),
+          std::move(boxes)};
 }
 
 void SortedPoints::read(int first, int last, std::vector<StoredPoint>& points) const {
