@@ -9,6 +9,7 @@
 #include "algorithms/chart_metric.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -31,8 +32,7 @@ void mapByMeanValues(const char* function, const Points& positions, const Chart&
   for (const auto& corners : chart.triangles)
     for (const int i : corners)
       if (is_pinned[i] == 0) free.push_back(i);
-  std::sort(free.begin(), free.end());
-  free.erase(std::unique(free.begin(), free.end()), free.end());
+  sortUnique(free);
   if (free.empty()) return;
   const int n = static_cast<int>(free.size());
   for (int k = 0; k < n; ++k) local[free[k]] = k;

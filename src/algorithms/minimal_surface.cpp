@@ -13,6 +13,7 @@
 #include "algorithms/shape_frame.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
@@ -78,8 +79,7 @@ std::vector<int> fixedPoints(const Laplacian& laplacian, const std::vector<std::
     fixed.push_back(i);
   }
   if (given.empty()) fixed = rimPoints(triangles);
-  std::sort(fixed.begin(), fixed.end());
-  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+  sortUnique(fixed);
   if (fixed.empty()) refuse("the surface has no rim, so points that stay in place must be given");
   return fixed;
 }

@@ -17,6 +17,7 @@
 #include "algorithms/connected.h"
 #include "algorithms/mean_value_map.h"
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
@@ -88,8 +89,7 @@ Eigen::MatrixX2d conformal(const Laplacian& laplacian, std::vector<const Chart*>
   for (const Chart* chart : charts) {
     std::vector<int> points;
     for (const auto& corners : chart->triangles) points.insert(points.end(), corners.begin(), corners.end());
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
+    sortUnique(points);
     for (std::size_t k = 0; k < points.size(); ++k) local[points[k]] = static_cast<int>(k);
     const int exponent = exponentOf(laplacian.positions, chart->triangles);
     Eigen::MatrixX2d map =

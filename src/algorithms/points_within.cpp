@@ -13,6 +13,7 @@
 #include "algorithms/march_faces.h"
 #include "base/cover_source.h"
 #include "base/number_text.h"
+#include "base/sort_unique.h"
 #include "cover/face_scale.h"
 #include "cover/geometry.h"
 #include "operators/check_cover.h"
@@ -65,8 +66,7 @@ std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<in
     throw InvalidInput(name + "no source lies on a component, must be at least one active point: " +
                        whyOnNone("source", sources[0], laplacian.status[laplacian.representative[sources[0]]]));
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sortUnique(found);
   return found;
 }
 

@@ -1,9 +1,9 @@
 #include "algorithms/remainder.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "algorithms/greater.h"
+#include "base/sort_unique.h"
 
 namespace tufted {
 namespace {
@@ -47,8 +47,7 @@ std::vector<int> neighborsOf(const SparseMatrix& L, const std::vector<int>& rows
   std::vector<int> result;
   for (const int i : rows)
     for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry) result.push_back(static_cast<int>(entry.row()));
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sortUnique(result);
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/scaling.h"
+#include "base/sort_unique.h"
 #include "tufted/describe.h"
 #include "tufted/errors.h"
 
@@ -95,8 +96,7 @@ std::vector<int> sampleRegions(const Points& points, int most) {
     ball.keepNearest(share);
     for (const auto& [squared, i] : ball.inside) sample.push_back(i);
   }
-  std::sort(sample.begin(), sample.end());
-  sample.erase(std::unique(sample.begin(), sample.end()), sample.end());
+  sortUnique(sample);
   return sample;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/sort_unique.h"
 #include "pipeline/cloud_options.h"
 #include "tiles/passes_scaling.h"
 #include "tiles/sorted_points.h"
@@ -107,8 +108,7 @@ class TileBuilds {
 
   /// Builds rows again that depend on stars of which their tile did not know. Returns whether there were any.
   bool requireMore() {
-    std::sort(far_pairs_.begin(), far_pairs_.end());
-    far_pairs_.erase(std::unique(far_pairs_.begin(), far_pairs_.end()), far_pairs_.end());
+    sortUnique(far_pairs_);
     std::vector<TileTask> again;
     for (std::size_t i = 0; i < built_.size();) {
       Built& built = built_[i];
