@@ -43,6 +43,10 @@ tufted::Laplacian cloudLaplacian(const tufted::Geometry& geometry, const Input& 
 
 }  // namespace
 
+std::string nameOf(tufted::Preset preset) {
+  return std::find_if(presets.begin(), presets.end(), [&](const auto& named) { return named.second == preset; })->first;
+}
+
 void addBuildOptions(CLI::App& command, Build& build) {
   build.neighbors = addNumber(command, "--neighbors", build.cloud.neighbors, 3, std::numeric_limits<int>::max(),
                               "Number of neighbours per point, clouds only (30)")

@@ -35,6 +35,9 @@ struct Build {
   std::vector<const CLI::Option*> building;    ///< options that do not apply with --operator
 };
 
+/// The name of a preset, as --preset takes it.
+std::string nameOf(tufted::Preset preset);
+
 /// Adds the options of building. They set `build`, which must outlive the command.
 void addBuildOptions(CLI::App& command, Build& build);
 

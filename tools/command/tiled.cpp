@@ -27,10 +27,6 @@ const std::set<std::string> available = {"--help",  "--help-all", "--as",     "-
                                          "--thin",  "--out",      "--preset", "--neighbors", "--threads", "--mollify",
                                          "--quiet", "--json",     "--memory", "--keep-noise"};
 
-std::string nameOf(tufted::Preset preset) {
-  return preset == tufted::Preset::clean ? "clean" : preset == tufted::Preset::scan ? "scan" : "lidar";
-}
-
 std::string megabytes(double bytes) {
   return numberText(bytes / 1e6) + " MB";
 }
