@@ -58,7 +58,8 @@ int shorten(const MarchFaces& faces, SegmentList& path, bool keeps_class, const 
   return count;
 }
 
-/// The same for a closed path, whose last piece leads to its first. It may start at another point afterwards.
+/// Shortens a closed path, whose last piece leads to its first, by shorten(). The path may start at another point
+/// afterwards.
 int shortenLoop(const MarchFaces& faces, SegmentList& path, const Workers& workers) {
   int count = shorten(faces, path, true, workers);
   while (path.size() > 1) {
