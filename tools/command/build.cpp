@@ -43,7 +43,7 @@ tufted::Laplacian cloudLaplacian(const tufted::Geometry& geometry, const Input& 
 
 }  // namespace
 
-std::string nameOf(tufted::Preset preset) {
+std::string presetName(tufted::Preset preset) {
   return std::find_if(presets.begin(), presets.end(), [&](const auto& named) { return named.second == preset; })->first;
 }
 

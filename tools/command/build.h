@@ -36,7 +36,7 @@ struct Build {
 };
 
 /// The name of a preset, as --preset takes it.
-std::string nameOf(tufted::Preset preset);
+std::string presetName(tufted::Preset preset);
 
 /// Adds the options of building. They set `build`, which must outlive the command.
 void addBuildOptions(CLI::App& command, Build& build);

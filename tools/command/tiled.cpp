@@ -34,7 +34,7 @@ std::string megabytes(double bytes) {
 /// @param taken bytes that the points take
 tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build, double taken) {
   if (build.preset != tufted::Preset::clean && !tiled.keeps_noise)
-    throw tufted::InvalidInput("--memory needs --preset clean or --keep-noise: preset " + nameOf(build.preset) +
+    throw tufted::InvalidInput("--memory needs --preset clean or --keep-noise: preset " + presetName(build.preset) +
                                " moves noisy points, which tiles cannot do yet");
   tufted::TileOptions options;
   options.cloud.steps = tufted::cloudSteps(build.preset);
@@ -93,7 +93,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
   tufted::TileOptions options = optionsOf(tiled, build, taken);
   options.progress = options.cloud.progress = progress;
   text.source = input.name();
-  text.preset = nameOf(build.preset);
+  text.preset = presetName(build.preset);
   text.memory = tiled.memory_text;
   text.keep_noise = tiled.keeps_noise;
   if (input.chosen.of > 0)
