@@ -38,6 +38,7 @@ class Cells {
   std::int64_t begin(int cell) const { return begin_[cell]; }
   std::int64_t points(int cell) const { return begin_[cell + 1] - begin_[cell]; }
   const CellBox& box(int cell) const { return tree_[0][cell]; }
+  double edge() const { return edge_; }
   /// Whether two cells are near each other: at most an edge apart.
   bool areNear(int a, int b) const { return box(a).gapTo(box(b)) <= edge_; }
 

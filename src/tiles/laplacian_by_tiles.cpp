@@ -136,7 +136,14 @@ class TileBuilds {
       ask(options_, "tiles", share_);
       Tile tile(points_, scaling_, task);
       tile.holdMargin(options_.cloud);
-      if (tile.heldPoints() > most_points_) refuseLarge(tile.heldPoints());
+      if (tile.heldPoints() > most_points_) {
+        if (task.own.size() == 1) refuseLarge(tile.heldPoints());
+        // Parts of a tile need fewer points around them.
+        const auto middle = task.own.begin() + std::ssize(task.own) / 2;
+        build({{task.own.begin(), middle}, task.required});
+        task = {{middle, task.own.end()}, task.required};
+        continue;
+      }
       most_held_ = std::max(most_held_, tile.heldPoints());
       all_held_ += tile.heldPoints();
       ++builds_;

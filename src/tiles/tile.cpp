@@ -51,9 +51,9 @@ void Tile::holdMargin(const CloudOptions& options) {
   // One more for stars that have triangles with the points of these cells, and one because cells are not cut.
   int margin = 2 + static_cast<int>(std::min(std::ceil(corner), 1.0 * options.neighbors));
   margin += (options.steps.settle_diagonals ? 1 : 0) + (options.steps.isolate_outliers ? 1 : 0);
-  // A build again holds twice as much, so that few builds are needed.
-  holdAround(wanted, margin << std::min(task_.round, 16));
+  holdAround(std::move(wanted), margin);
   holdAround(task_.lacking, margin);
+  for (const int cell : task_.kept) hold(cell);
   is_whole_ = held_points_ == cells_.begin(cells_.size());
 }
 
@@ -107,14 +107,27 @@ void Tile::build(const CloudOptions& options) {
   complete_.clear();
   incomplete_.clear();
   needed_.clear();
+  lacking_.clear();
+  kept_.clear();
   if (is_whole_) {
     complete_ = task_.own;
   } else if (result_.report.active + result_.report.isolated <= most_asked * options.neighbors) {
-    incomplete_ = lacking_ = task_.own;
+    incomplete_ = task_.own;
   } else {
     addFaceRadii();
     findComplete(options.progress);
   }
+  if (!incomplete_.empty()) lackMore();
+}
+
+void Tile::lackMore() {
+  const auto is_new = [&](int cell) { return is_held_[cell] == 0; };
+  if (std::any_of(kept_.begin(), kept_.end(), is_new)) return;
+  for (double radius = cells_.edge(); std::none_of(lacking_.begin(), lacking_.end(), is_new); radius *= 2)
+    for (const int own : incomplete_)
+      cells_.visit(cells_.box(own), radius, [&](int cell) {
+        if (is_new(cell)) lacking_.push_back(cell);
+      });
 }
 
 void Tile::addFaceRadii() {
@@ -176,31 +189,38 @@ void Tile::findComplete(const Progress& progress) {
   needed_ = nearMarked(by_complete);
   std::vector<int> wanted = nearMarked(by_other);
   if (!has_required) wanted.insert(wanted.end(), task_.required.begin(), task_.required.end());
-  addLacking(std::move(wanted));
+  findLacking(std::move(wanted));
 }
 
-void Tile::addLacking(std::vector<int> cells) {
+void Tile::findLacking(std::vector<int> cells) {
   sortUnique(cells);
-  std::vector<int> unsure = cells;
+  std::vector<std::uint8_t> is_asked(is_held_.size()), is_kept(is_held_.size());
+  const auto ask = [&](int cell) {
+    is_asked[cell] = 1;
+    for (const int needed : needs_[cell]) is_asked[needed] = 1;
+  };
   for (const int cell : cells) {
-    if (is_held_[cell] == 0) lacking_.push_back(cell);
+    ask(cell);
     auto pair = std::lower_bound(doubtful_pairs_.begin(), doubtful_pairs_.end(), std::pair(cell, 0));
-    for (; pair != doubtful_pairs_.end() && pair->first == cell; ++pair) unsure.push_back(pair->second);
+    for (; pair != doubtful_pairs_.end() && pair->first == cell; ++pair) ask(pair->second);
   }
-  sortUnique(unsure);
-  std::vector<std::uint8_t> is_lacking(is_held_.size());
-  for (const auto& [cell, lacks] : lacks_)
-    if (std::binary_search(unsure.begin(), unsure.end(), cell))
-      for (const int lacking : lacks) is_lacking[lacking] = 1;
+  for (int cell = 0; cell < cells_.size(); ++cell) {
+    if (is_asked[cell] == 0) continue;
+    if (is_held_[cell] == 0) lacking_.push_back(cell);
+    cells_.visit(cells_.box(cell), reach_[cell], [&](int near) { is_kept[near] = 1; });
+  }
   for (int cell = 0; cell < cells_.size(); ++cell)
-    if (is_lacking[cell] != 0) lacking_.push_back(cell);
-  sortUnique(lacking_);
+    if (is_kept[cell] != 0) kept_.push_back(cell);
 }
 
 TileTask Tile::rest() const {
-  TileTask task = {incomplete_, task_.required, task_.lacking, task_.round + 1};
-  task.lacking.insert(task.lacking.end(), lacking_.begin(), lacking_.end());
-  sortUnique(task.lacking);
+  TileTask task = {incomplete_, task_.required, lacking_, kept_};
+  if (complete_.empty()) {  // then what is held must grow, or tiles would be built for ever
+    task.lacking.insert(task.lacking.end(), task_.lacking.begin(), task_.lacking.end());
+    task.kept.insert(task.kept.end(), task_.kept.begin(), task_.kept.end());
+    sortUnique(task.lacking);
+    sortUnique(task.kept);
+  }
   return task;
 }
 

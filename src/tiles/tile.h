@@ -17,8 +17,8 @@ namespace tufted {
 struct TileTask {
   std::vector<int> own;           ///< cells whose rows are wanted, ascending
   std::vector<int> required;      ///< cells with a star that has triangles in `own` from afar, found by other tiles
-  std::vector<int> lacking = {};  ///< cells that earlier builds lacked
-  int round = 0;                  ///< number of earlier builds
+  std::vector<int> lacking = {};  ///< cells whose stars earlier builds lacked
+  std::vector<int> kept = {};     ///< cells whose points earlier builds searched, or lacked
 };
 
 /// Some cells whose rows are built, and the cells around them whose points are held for that.
@@ -60,7 +60,7 @@ class Tile final : public CloudPart {
   /// Whether all cells at most `radius` from a box are held.
   bool holdsAround(const CellBox& box, double radius) const;
   void findCertainStars(const SurfaceStars& built, const RankedCloud& cloud);
-  void findLacking(const SurfaceStars& built, const RankedCloud& cloud);
+  void findSureCells(const SurfaceStars& built, const RankedCloud& cloud);
   void measureDependence(const SurfaceStars& built, const RankedCloud& cloud);
   void findPairs(const SurfaceStars& built);
   void addFaceRadii();
@@ -68,8 +68,10 @@ class Tile final : public CloudPart {
   void findComplete(const Progress& progress);
   /// The cells near those that are marked, ascending.
   std::vector<int> nearMarked(const std::vector<std::uint8_t>& is_marked) const;
-  /// Adds what lets cells be unfit to what is lacking.
-  void addLacking(std::vector<int> cells);
+  /// Lets the nearest cells that are not held be lacking, if none is yet: the next build must hold more.
+  void lackMore();
+  /// Finds what must be held so that all stars that may have triangles in these cells are certain.
+  void findLacking(std::vector<int> cells);
 
   const SortedPoints& points_;
   const Cells& cells_;
@@ -87,13 +89,14 @@ class Tile final : public CloudPart {
 
   // Set by takeStars().
   Buffer<int> cell_by_rank_;
-  RawBuffer<std::uint8_t> is_certain_;                   ///< by rank, whether the search met only what is held
-  std::vector<std::uint8_t> is_sure_;                    ///< by cell, whether all filtered stars are certain
-  std::vector<std::pair<int, std::vector<int>>> lacks_;  ///< cells that are not sure, and what they lack
-  std::vector<double> dependence_;  ///< by cell, of own ones how far the rows of its points depend on stars
+  RawBuffer<std::uint8_t> is_certain_;   ///< by rank, whether the search met only what is held
+  std::vector<std::uint8_t> is_sure_;    ///< by cell, whether all filtered stars are certain
+  std::vector<double> reach_;            ///< by cell, how far the searches of its stars have looked
+  std::vector<std::vector<int>> needs_;  ///< by cell, the cells with the stars that decide which of its triangles stay
+  std::vector<double> dependence_;       ///< by cell, of own ones how far the rows of its points depend on stars
   std::vector<std::pair<int, int>> far_pairs_;
   std::vector<std::pair<int, int>> doubtful_pairs_;  ///< second and first cell, of all stars in cells that are not sure
-  std::vector<int> complete_, incomplete_, needed_, lacking_;
+  std::vector<int> complete_, incomplete_, needed_, lacking_, kept_;
 };
 
 }  // namespace tufted

@@ -28,7 +28,7 @@ void Tile::takeStars(const SurfaceStars& built, const RankedCloud& cloud) {
   is_sure_ = is_held_;
   if (!is_whole_) {
     findCertainStars(built, cloud);
-    findLacking(built, cloud);
+    findSureCells(built, cloud);
     measureDependence(built, cloud);
   }
   findPairs(built);
@@ -36,8 +36,9 @@ void Tile::takeStars(const SurfaceStars& built, const RankedCloud& cloud) {
 
 void Tile::findCertainStars(const SurfaceStars& built, const RankedCloud& cloud) {
   is_certain_.assign(cell_by_rank_.size(), 1);
+  reach_.assign(is_held_.size(), 0);
   for (int p = 0, end = 0; p < cloud.size(); p = end) {
-    double reach = 0;
+    double& reach = reach_[cell_by_rank_[p]];
     for (end = p; end < cloud.size() && cell_by_rank_[end] == cell_by_rank_[p]; ++end)
       reach = std::max(reach, built.support.reach[end]);
     if (holdsAround(cells_.box(cell_by_rank_[p]), reach)) continue;
@@ -45,45 +46,33 @@ void Tile::findCertainStars(const SurfaceStars& built, const RankedCloud& cloud)
   }
 }
 
-void Tile::findLacking(const SurfaceStars& built, const RankedCloud& cloud) {
+void Tile::findSureCells(const SurfaceStars& built, const RankedCloud& cloud) {
   const Stars& stars = built.stars;
-  lacks_.clear();
-  std::vector<std::vector<int>> lacks(is_held_.size());  // what lets the stars of a cell be uncertain
-  std::vector<int> listed_for(is_held_.size(), -1);      // the last cell in whose list each cell was put
-  const auto list = [&](int other, int cell, std::vector<int>& cells) {
-    if (std::exchange(listed_for[other], cell) != cell) cells.push_back(other);
-  };
-  for (int p = 0; p < cloud.size(); ++p) {
-    if (is_certain_[p] != 0) continue;
-    const int cell = cell_by_rank_[p];
-    is_sure_[cell] = 0;
-    cells_.visit(boxOf(cloud, p), built.support.reach[p], [&](int other) {
-      if (is_held_[other] == 0) list(other, cell, lacks[cell]);
-    });
-  }
-  listed_for.assign(is_held_.size(), -1);
-  std::vector<int> needed_for(is_held_.size(), -1);  // the last cell whose stars depend on those of each cell
-  const std::vector<std::uint8_t> has_certain = is_sure_;
+  std::vector<std::uint8_t> has_certain = is_held_;
+  for (int p = 0; p < cloud.size(); ++p)
+    if (is_certain_[p] == 0) has_certain[cell_by_rank_[p]] = 0;
+  needs_.assign(is_held_.size(), {});
+  std::vector<int> needed_for(is_held_.size(), -1);  // the last cell in whose list each cell was put
   for (int p = 0, end = 0; p < cloud.size(); p = end) {
     const int cell = cell_by_rank_[p];
-    std::vector<int> all;
     const auto need = [&](int other) {
-      if (has_certain[other] != 0 || std::exchange(needed_for[other], cell) == cell) return;
-      is_sure_[cell] = 0;
-      if (is_held_[other] == 0) list(other, cell, all);
-      for (const int lacking : lacks[other]) list(lacking, cell, all);
+      if (std::exchange(needed_for[other], cell) != cell) needs_[cell].push_back(other);
     };
     // A filtered star depends on the neighbourhoods of its link vertices, and whether these are isolated on those of
     // their neighbours.
     const auto needNeighbors = [&](int q) {
-      if (is_certain_[q] == 0) need(cell_by_rank_[q]);
-      if (isolates_) cells_.visit(boxOf(cloud, q), built.support.fit_radius[q], need);
+      need(cell_by_rank_[q]);
+      if (is_certain_[q] == 0) is_sure_[cell] = 0;
+      if (!isolates_) return;
+      cells_.visit(boxOf(cloud, q), built.support.fit_radius[q], [&](int other) {
+        need(other);
+        if (has_certain[other] == 0) is_sure_[cell] = 0;
+      });
     };
     for (end = p; end < cloud.size() && cell_by_rank_[end] == cell; ++end) {
       needNeighbors(end);
       for (int i = stars.offset[end]; i < stars.offset[end + 1]; ++i) needNeighbors(stars.link[i]);
     }
-    if (is_sure_[cell] == 0) lacks_.emplace_back(cell, std::move(all));
   }
 }
 

@@ -180,6 +180,21 @@ TEST(Tiles, AreBuiltAgainWithAWiderMarginWhereASearchReachesFar) {
   EXPECT_GT(part.report.builds, part.report.tiles);
 }
 
+// The cells around a small and far part are not held, however many rings of cells are taken.
+TEST(Tiles, OfAPartThatHasFewerPointsThanASearchAreThoseOfTheWhole) {
+  const Points large = shapes::sphere(12000).points;
+  Points points(12300, 3);
+  points << large, large.topRows(300) * 0.1 + Points::Constant(300, 3, 20);
+  expectSame(byTiles(points, one(Preset::clean), 40).laplacian, pointCloudLaplacian(points, one(Preset::clean)));
+}
+
+TEST(Tiles, ThatAreTooLargeAreBuiltInParts) {
+  const Points points = roughTerrain(20000);
+  const Collected part = byTiles(points, one(Preset::clean), 2, 250e6 + 700 * 12000);
+  expectSame(part.laplacian, pointCloudLaplacian(points, one(Preset::clean)));
+  EXPECT_LE(part.report.most_points, 12000);
+}
+
 TEST(Tiles, TooLargeForTheMemoryAreRefused) {
   const Points points = shapes::sphere(2000).points;
   EXPECT_THROW(byTiles(points, one(Preset::clean), 1, 250e6 + 700 * 100), InvalidInput);
