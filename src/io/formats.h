@@ -22,6 +22,10 @@ Geometry readStl(const std::filesystem::path& path, std::string_view bytes);
 Geometry readNpy(const std::filesystem::path& path, std::string_view bytes);
 Geometry readVtk(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
 
+/// The format of a file by its extension, or if that is unknown by its content; `automatic` if both are unknown.
+/// @param bytes the whole file; its beginning suffices for PLY, LAS, NPY, VTK and PCD
+FileFormat guessFormat(const std::filesystem::path& path, std::string_view bytes);
+
 /// The format of a file by its extension, or if that is unknown by its content.
 /// @throws IoError if both are unknown
 FileFormat formatOf(const std::filesystem::path& path, std::string_view bytes);

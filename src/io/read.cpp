@@ -87,9 +87,13 @@ Geometry withinMemory(const std::filesystem::path& path, const Work& work) {
 
 }  // namespace
 
+FileFormat io::guessFormat(const std::filesystem::path& path, std::string_view bytes) {
+  const FileFormat format = formatByExtension(path);
+  return format == FileFormat::automatic ? formatByContent(bytes) : format;
+}
+
 FileFormat io::formatOf(const std::filesystem::path& path, std::string_view bytes) {
-  FileFormat format = formatByExtension(path);
-  if (format == FileFormat::automatic) format = formatByContent(bytes);
+  const FileFormat format = guessFormat(path, bytes);
   if (format != FileFormat::automatic) return format;
   const std::string extension = lower(path.extension().string());
   std::string names;

@@ -1,12 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "io/line_scanner.h"
 #include "tufted/io/read.h"
 
 namespace tufted::io {
+
+/// The note that bytes after the last record are skipped.
+/// @param place where they begin: "byte 120"
+/// @param are_zero whether all of them are 0
+std::string unreadNote(const std::filesystem::path& path, const std::string& place, std::size_t count, bool are_zero);
 
 /// Notes in Geometry::notes that bytes after the last record are skipped, if there are any.
 /// @param bytes the whole file

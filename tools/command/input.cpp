@@ -117,14 +117,18 @@ void addWeld(CLI::App& command, Input& input) {
 
 namespace {
 
+bool isStream(const Input& input) {
+  std::error_code error;
+  return input.isStandardInput() || std::filesystem::is_fifo(input.file, error);
+}
+
 tufted::Geometry readAny(const Input& input, const tufted::Progress& progress) {
   constexpr auto automatic = tufted::FileFormat::automatic;
   if (input.isStandardInput()) {
     std::ios::sync_with_stdio(false);  // without this std::cin cannot tell an error from the end
     return tufted::read(std::cin, input.name(), input.as, automatic, progress);
   }
-  std::error_code error;
-  if (!std::filesystem::is_fifo(input.file, error)) return tufted::read(input.file, input.as, automatic, progress);
+  if (!isStream(input)) return tufted::read(input.file, input.as, automatic, progress);
   std::ifstream pipe(input.file, std::ios::binary);
   if (!pipe) throw tufted::IoError(input.name() + ": cannot be read");
   return tufted::read(pipe, input.name(), input.as, automatic, progress);
@@ -165,6 +169,16 @@ void refuseTooMany(const Input& input) {
   if (std::filesystem::file_size(input.file) < static_cast<std::uintmax_t>(head->points)) return;
   const double needed = static_cast<double>(head->points) * least_build_bytes;
   if (needed > usableMemory()) throw tufted::FileTooLarge(memoryText(input, head->points, needed));
+}
+
+tufted::FileSource openInput(Input& input, const tufted::Progress& progress) {
+  const tufted::Selection selection = selectionOf(input.chosen);
+  tufted::FileSource source = isStream(input) ? sourceOf(readAny(input, progress), input.name(), selection, progress)
+                                              : tufted::sourceOf(input.file, input.as, selection, progress);
+  if (selection.isEmpty()) return source;
+  input.chosen.of = source.of;
+  input.chosen.kept = source.kept;
+  return source;
 }
 
 tufted::Geometry readInput(Input& input, const tufted::Progress& progress) {
