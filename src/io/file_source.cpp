@@ -15,48 +15,40 @@ namespace {
   throw InvalidInput(name + " holds a mesh, must be a cloud; --as cloud, or ReadAs::cloud, takes its vertices alone");
 }
 
-/// The chosen points of a batch, or of an organized cloud all of them, the others without coordinates.
-Points chosenPoints(const Points& batch, const std::vector<int>& rows, bool is_organized) {
-  if (!is_organized) return batch(rows, Eigen::all);
-  Points points = Points::Constant(batch.rows(), 3, std::numeric_limits<double>::quiet_NaN());
-  points(rows, Eigen::all) = batch(rows, Eigen::all);
-  return points;
-}
-
-/// The points of a file that a selection keeps, in passes through the file.
+/// The points of a file that a selection keeps, in passes through the file. The first pass decides, and a bit per point
+/// remembers.
 class ChosenRecords {
  public:
-  ChosenRecords(std::shared_ptr<io::RecordFile> file, Selection selection)
-      : file_(std::move(file)), selection_(std::move(selection)) {}
-
-  /// Calls visit(points of a batch, rows in it that are kept, number of its first point).
-  template <class Visit>
-  void forBatches(const Visit& visit) const {
-    file_->forBatches([&](const Geometry& batch, std::int64_t first) {
-      visit(batch.points, io::chosenRows(batch, selection_, {}), first);
-    });
-  }
-
-  std::int64_t count(const Progress& progress) const {
+  ChosenRecords(std::shared_ptr<io::RecordFile> file, const Selection& selection, const Progress& progress)
+      : file_(std::move(file)) {
     const std::int64_t all = file_->layout().points;
-    std::int64_t kept = 0;
-    forBatches([&](const Points&, const std::vector<int>& rows, std::int64_t first) {
+    is_kept_.resize(static_cast<std::size_t>(all));
+    file_->forBatches([&](const Geometry& batch, std::int64_t first) {
       if (progress && !progress("select", static_cast<double>(first) / static_cast<double>(all)))
         throw Cancelled("sourceOf: cancelled");
-      kept += std::ssize(rows);
+      const std::vector<int> rows = io::chosenRows(batch, selection, {});
+      for (const int row : rows) is_kept_[static_cast<std::size_t>(first + row)] = true;
+      count_ += std::ssize(rows);
     });
-    if (kept == 0) io::refuseNone(all);
-    return kept;
+    if (count_ == 0) io::refuseNone(all);
   }
 
+  std::int64_t count() const { return count_; }
+  double memory() const { return static_cast<double>(is_kept_.size()) / 8; }
+
   void givePoints(const std::function<void(const PointsRef&)>& take) const {
-    forBatches([&](const Points& batch, const std::vector<int>& rows, std::int64_t) {
-      take(chosenPoints(batch, rows, file_->layout().is_organized));
+    file_->forBatches([&](const Geometry& batch, std::int64_t first) {
+      const std::vector<int> rows = rowsOf(batch, first);
+      if (!file_->layout().is_organized) return take(batch.points(rows, Eigen::all).eval());
+      Points points = Points::Constant(batch.points.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+      points(rows, Eigen::all) = batch.points(rows, Eigen::all);
+      take(points);
     });
   }
 
   void giveRows(const std::function<void(const std::vector<std::int64_t>&)>& take) const {
-    forBatches([&](const Points&, const std::vector<int>& rows, std::int64_t first) {
+    file_->forBatches([&](const Geometry& batch, std::int64_t first) {
+      const std::vector<int> rows = rowsOf(batch, first);
       std::vector<std::int64_t> numbers(rows.begin(), rows.end());
       for (std::int64_t& number : numbers) number += first;
       take(numbers);
@@ -64,8 +56,17 @@ class ChosenRecords {
   }
 
  private:
+  /// The rows of a batch that are kept.
+  std::vector<int> rowsOf(const Geometry& batch, std::int64_t first) const {
+    std::vector<int> rows;
+    for (int row = 0; row < batch.points.rows(); ++row)
+      if (is_kept_[static_cast<std::size_t>(first + row)]) rows.push_back(row);
+    return rows;
+  }
+
   std::shared_ptr<io::RecordFile> file_;
-  Selection selection_;
+  std::vector<bool> is_kept_;
+  std::int64_t count_ = 0;
 };
 
 }  // namespace
@@ -85,12 +86,13 @@ FileSource sourceOf(const std::filesystem::path& path, ReadAs as, const Selectio
     file->forBatches([&](const Geometry& batch, std::int64_t) { take(batch.points); });
   };
   if (selection.isEmpty()) return source;
-  const ChosenRecords chosen(file, selection);
-  source.kept = chosen.count(progress);
-  source.pass = [chosen](const auto& take) { chosen.givePoints(take); };
+  const auto chosen = std::make_shared<const ChosenRecords>(file, selection, progress);
+  source.kept = chosen->count();
+  source.memory += chosen->memory();
+  source.pass = [chosen](const auto& take) { chosen->givePoints(take); };
   if (layout.is_organized) return source;
   source.size = source.kept;
-  source.rows = [chosen](const auto& take) { chosen.giveRows(take); };
+  source.rows = [chosen](const auto& take) { chosen->giveRows(take); };
   return source;
 }
 

@@ -27,6 +27,7 @@ std::size_t fileSize(const std::filesystem::path& path) {
 InputFile::InputFile(const std::filesystem::path& path)
     : path_(path), size_(fileSize(path)), file_(std::fopen(path.c_str(), "rb"), &std::fclose) {
   if (!file_) refuseErrno(path, "read", errno);
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // every read sees the file as it is
 }
 
 void InputFile::read(std::size_t begin, std::size_t count, std::string& bytes) const {

@@ -17,7 +17,7 @@ namespace tufted::io {
 /// A binary file of points that is read in batches, as often as needed.
 class RecordFile {
  public:
-  static constexpr std::size_t usual_bytes = std::size_t{1} << 24;  ///< a batch of LAS takes 50 MB of memory with it
+  static constexpr std::size_t usual_bytes = std::size_t{1} << 21;  ///< stay in the cache
 
   /// @param batch_bytes bytes that a batch takes in the file, at most, but it has a point at least
   /// @return null for a file without RecordLayout, which must be read as a whole

@@ -82,7 +82,7 @@ Layout layoutOfPly(const std::filesystem::path& path, std::string_view bytes, st
 }
 
 Layout layoutOfNpy(const std::filesystem::path& path, std::string_view bytes, std::size_t all) {
-  constexpr std::int64_t most_columns = 1000;  // readNpy() refuses fewer points than values; a batch has 1,048 or more
+  constexpr std::int64_t most_columns = 100;  // readNpy() refuses fewer points than values; a batch has 1,300 or more
   const NpyTable table = parseNpyTable(bytes, all, path);
   const bool is_named = !table.members.empty();
   if (!is_named && (table.columns < 3 || table.columns > most_columns)) return std::nullopt;
