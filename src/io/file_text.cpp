@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <memory>
 #include <system_error>
 
 #include "io/errors.h"
@@ -24,25 +25,13 @@ std::size_t fileSize(const std::filesystem::path& path) {
 
 }  // namespace
 
-InputFile::InputFile(const std::filesystem::path& path)
-    : path_(path), size_(fileSize(path)), file_(std::fopen(path.c_str(), "rb"), &std::fclose) {
-  if (!file_) refuseErrno(path, "read", errno);
-  std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // every read sees the file as it is
-}
-
-void InputFile::read(std::size_t begin, std::size_t count, std::string& bytes) const {
-  const std::size_t before = bytes.size();
-  bytes.resize(before + count);
-  if (::fseeko(file_.get(), static_cast<off_t>(begin), SEEK_SET) != 0) refuseErrno(path_, "read", errno);
-  const std::size_t got = std::fread(bytes.data() + before, 1, count, file_.get());
-  if (got < count && std::ferror(file_.get()) != 0) refuseErrno(path_, "read", errno);
-  if (got < count) refuseByte(path_, begin + got, "the file ends there, and was longer when it was opened");
-}
-
 std::string readBytes(const std::filesystem::path& path) {
-  const InputFile file(path);
-  std::string bytes;
-  file.read(0, file.size(), bytes);
+  std::string bytes(fileSize(path), '\0');
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) refuseErrno(path, "read", errno);
+  const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file.get());
+  if (count < bytes.size() && std::ferror(file.get())) refuseErrno(path, "read", errno);
+  bytes.resize(count);
   return bytes;
 }
 

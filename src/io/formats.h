@@ -24,10 +24,6 @@ Geometry readVtk(const std::filesystem::path& path, std::string_view bytes, cons
 
 /// The format of a file by its extension, or if that is unknown by its content; `automatic` if both are unknown.
 /// @param bytes the whole file; its beginning suffices for PLY, LAS, NPY, VTK and PCD
-FileFormat guessFormat(const std::filesystem::path& path, std::string_view bytes);
-
-/// The format of a file by its extension, or if that is unknown by its content.
-/// @throws IoError if both are unknown
 FileFormat formatOf(const std::filesystem::path& path, std::string_view bytes);
 
 /// Whether the bytes begin like a file of this format. looksLikeXyz() is asked last, as any text of numbers passes it.

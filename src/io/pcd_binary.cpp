@@ -10,16 +10,12 @@
 // threads share, and needs the libraries of VTK.
 namespace tufted::io {
 
-void checkPcdSize(const std::filesystem::path& path, const PcdHeader& header, std::size_t all) {
-  const std::size_t rest = all - std::min(header.body, all);
+std::size_t readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
+  const std::size_t rest = bytes.size() - std::min(header.body, bytes.size());
   if (static_cast<std::uint64_t>(header.points) > rest / header.row_bytes)
-    refuseByte(path, all,
+    refuseByte(path, bytes.size(),
                "ends there, too short for " + std::to_string(header.points) + " points of " +
                    std::to_string(header.row_bytes) + " bytes");
-}
-
-std::size_t readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
-  checkPcdSize(path, header, bytes.size());
   allocate(header);
   const char* value = bytes.data() + header.body;
   for (std::int64_t i = 0; i < header.points; ++i) {

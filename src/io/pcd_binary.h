@@ -8,11 +8,6 @@
 
 namespace tufted::io {
 
-/// Checks that a binary file is as long as its header says.
-/// @param all size of the whole file
-/// @throws IoError naming the path and byte
-void checkPcdSize(const std::filesystem::path& path, const PcdHeader& header, std::size_t all);
-
 /// Checks that a binary file is as long as its header says, and reads its values into the columns of `header`.
 /// readPcdCompressed() does so for binary_compressed files.
 /// @param bytes the whole file

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <functional>
-#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "io/errors.h"
@@ -19,71 +18,66 @@ constexpr std::size_t most_points = std::size_t{1} << 15;     // eight times as 
 }  // namespace
 
 std::shared_ptr<RecordFile> RecordFile::open(const std::filesystem::path& path, std::size_t batch_bytes) {
-  InputFile file(path);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return nullptr;
+  const auto file = std::make_shared<RecordFile>();
+  file->path_ = path;
+  file->file_.rdbuf()->pubsetbuf(nullptr, 0);  // every read sees the file as it is
+  file->file_.open(path, std::ios::binary);
+  const std::size_t size = std::filesystem::file_size(path, error);
+  if (!file->file_ || error || size == 0) return nullptr;
   std::string bytes;
-  file.read(0, std::min(file.size(), longest_header), bytes);
+  file->read(0, std::min(size, longest_header), bytes);
   if (bytes.size() == longest_header && bytes.starts_with("LASF")) {
     std::uint32_t begin = 0;
     std::memcpy(&begin, bytes.data() + las_byte::points_begin, sizeof begin);
-    const std::size_t end = std::clamp<std::size_t>(begin, longest_header, file.size());
-    file.read(longest_header, end - longest_header, bytes);
+    file->read(longest_header, std::clamp<std::size_t>(begin, longest_header, size) - longest_header, bytes);
   }
-  std::optional<RecordLayout> layout = recordLayout(path, bytes, file.size());
-  return layout ? std::make_shared<RecordFile>(std::move(file), std::move(*layout), batch_bytes) : nullptr;
-}
-
-RecordFile::RecordFile(InputFile file, RecordLayout layout, std::size_t batch_bytes)
-    : file_(std::move(file)), layout_(std::move(layout)) {
-  const std::size_t point_bytes = layout_.record_bytes * static_cast<std::size_t>(layout_.columns);
+  std::optional<RecordLayout> layout = recordLayout(path, bytes, size);
+  if (!layout) return nullptr;
+  const std::size_t point_bytes = layout->record_bytes * static_cast<std::size_t>(layout->columns);
   const std::size_t most = std::clamp<std::size_t>(batch_bytes / point_bytes, 1, most_points);
-  sums_.resize((static_cast<std::size_t>(layout_.points) + most - 1) / most);
+  file->sums_.resize((static_cast<std::size_t>(layout->points) + most - 1) / most);
+  file->layout_ = std::move(*layout);
+  return file;
 }
 
-std::string RecordFile::bytesOf(std::int64_t batch) const {
-  const std::int64_t first = firstOf(batch), points = firstOf(batch + 1) - first;
-  std::string bytes = layout_.header(points);
-  for (std::int64_t column = 0; column < layout_.columns; ++column)
-    file_.read(layout_.begin + static_cast<std::size_t>(column * layout_.points + first) * layout_.record_bytes,
-               static_cast<std::size_t>(points) * layout_.record_bytes, bytes);
-  return bytes;
+void RecordFile::read(std::size_t begin, std::size_t count, std::string& bytes) {
+  const std::size_t before = bytes.size();
+  bytes.resize(before + count);
+  file_.clear();
+  file_.seekg(static_cast<std::streamoff>(begin)).read(bytes.data() + before, static_cast<std::streamsize>(count));
+  const auto got = static_cast<std::size_t>(file_.gcount());
+  if (got < count) refuseByte(path_, begin + got, "the file ends there, and was longer when it was opened");
 }
 
-Geometry RecordFile::parseBatch(std::string_view bytes) const {
-  return parse(bytes, file_.path(), ReadAs::cloud, layout_.format);
-}
-
-double RecordFile::batchMemory() const {
-  const std::string file_bytes = bytesOf(0);
-  const Geometry batch = parseBatch(file_bytes);
-  std::size_t bytes = file_bytes.size();
-  for (const Field& field : batch.fields) bytes += field.bytes.size();
-  constexpr Eigen::Index copies = 3;  // as they are in the file, as doubles, and those that are chosen
-  return static_cast<double>(bytes) +
-         static_cast<double>((copies * batch.points.size() + batch.normals.size()) * sizeof(double));
-}
-
-std::vector<std::string> RecordFile::notes() const {
-  bool are_zero = true;
-  for (std::size_t at = layout_.rest; at < layout_.end && are_zero; at += usual_bytes) {
-    std::string bytes;
-    file_.read(at, std::min(layout_.end - at, usual_bytes), bytes);
-    are_zero = bytes.find_first_not_of('\0') == std::string::npos;
-  }
-  if (layout_.rest >= layout_.end) return {};
-  return {unreadNote(file_.path(), "byte " + std::to_string(layout_.rest), layout_.end - layout_.rest, are_zero)};
+std::vector<std::string> RecordFile::notes() {
+  const std::size_t begin =
+      layout_.begin + static_cast<std::size_t>(layout_.points * layout_.columns) * layout_.record_bytes;
+  if (begin >= layout_.end) return {};
+  std::string rest;
+  read(begin, layout_.end - begin, rest);
+  Geometry some;
+  some.points.resize(1, 3);
+  noteRest(path_, "byte " + std::to_string(begin), rest, some);
+  return some.notes;
 }
 
 void RecordFile::forBatches(const std::function<void(const Geometry& batch, std::int64_t first)>& visit) {
-  for (std::int64_t b = 0; b < batches(); ++b) {
-    std::string bytes = bytesOf(b);
-    std::optional<std::size_t>& sum = sums_[static_cast<std::size_t>(b)];
-    const std::size_t found = std::hash<std::string_view>()(bytes);
-    if (sum.value_or(found) != found)
-      refuseByte(file_.path(), layout_.begin + static_cast<std::size_t>(firstOf(b)) * layout_.record_bytes,
-                 "the points from there on have changed since they were first read");
-    sum = found;
-    const Geometry batch = parseBatch(std::exchange(bytes, {}));
-    visit(batch, firstOf(b));
+  std::int64_t first = 0;
+  for (std::size_t b = 0; b < sums_.size(); ++b) {
+    const auto left = static_cast<std::int64_t>(sums_.size() - b), points = (layout_.points - first) / left;
+    std::string bytes = layout_.header(points);
+    const std::size_t place = layout_.begin + static_cast<std::size_t>(first) * layout_.record_bytes;
+    for (std::int64_t c = 0; c < layout_.columns; ++c)
+      read(place + static_cast<std::size_t>(c * layout_.points) * layout_.record_bytes,
+           static_cast<std::size_t>(points) * layout_.record_bytes, bytes);
+    const std::size_t sum = std::hash<std::string>()(bytes);
+    if (sums_[b].value_or(sum) != sum)
+      refuseByte(path_, place, "the points from there on have changed since they were first read");
+    sums_[b] = sum;
+    visit(parse(bytes, path_, ReadAs::cloud, layout_.format), first);
+    first += points;
   }
 }
 

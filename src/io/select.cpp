@@ -5,7 +5,6 @@
 #include <cstring>
 #include <limits>
 
-#include "io/chosen_rows.h"
 #include "io/columns.h"
 #include "io/number.h"
 #include "io/steps.h"

@@ -3,30 +3,19 @@
 #include "io/errors.h"
 
 namespace tufted::io {
-namespace {
 
-std::string bytesText(std::size_t count, bool are_zero) {
-  return std::to_string(count) + (are_zero ? " zero" : "") + (count == 1 ? " byte" : " bytes");
-}
-
-/// Notes that the bytes `rest` are skipped, or refuses them if no point was read.
-void note(const std::filesystem::path& path, const std::string& place, std::string_view rest, Geometry& geometry) {
+void noteRest(const std::filesystem::path& path, const std::string& place, std::string_view rest, Geometry& geometry) {
   const bool are_zero = rest.find_first_not_of('\0') == std::string_view::npos;  // padding by PCL's writer
-  if (geometry.points.rows() == 0)
-    refuse(path, place + ": " + bytesText(rest.size(), are_zero) + " behind a header that counts no points");
+  const std::string count =
+      std::to_string(rest.size()) + (are_zero ? " zero" : "") + (rest.size() == 1 ? " byte" : " bytes");
+  if (geometry.points.rows() == 0) refuse(path, place + ": " + count + " behind a header that counts no points");
   geometry.unread_bytes = static_cast<std::int64_t>(rest.size());
-  geometry.notes.push_back(unreadNote(path, place, rest.size(), are_zero));
-}
-
-}  // namespace
-
-std::string unreadNote(const std::filesystem::path& path, const std::string& place, std::size_t count, bool are_zero) {
-  return path.string() + ": " + place + ": " + bytesText(count, are_zero) +
-         " behind the last record that the file counts, not read";
+  geometry.notes.push_back(path.string() + ": " + place + ": " + count +
+                           " behind the last record that the file counts, not read");
 }
 
 void noteUnread(const std::filesystem::path& path, std::string_view bytes, std::size_t end, Geometry& geometry) {
-  if (end < bytes.size()) note(path, "byte " + std::to_string(end), bytes.substr(end), geometry);
+  if (end < bytes.size()) noteRest(path, "byte " + std::to_string(end), bytes.substr(end), geometry);
 }
 
 void noteUnreadLines(const std::filesystem::path& path, std::string_view text, LineScanner& scanner,
@@ -37,7 +26,7 @@ void noteUnreadLines(const std::filesystem::path& path, std::string_view text, L
 void noteUnreadFromHere(const std::filesystem::path& path, std::string_view text, const LineScanner& scanner,
                         Geometry& geometry) {
   const auto begin = static_cast<std::size_t>(scanner.tokens().front().data() - text.data());
-  note(path, "line " + std::to_string(scanner.line()), text.substr(begin), geometry);
+  noteRest(path, "line " + std::to_string(scanner.line()), text.substr(begin), geometry);
 }
 
 }  // namespace tufted::io

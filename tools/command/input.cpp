@@ -117,18 +117,14 @@ void addWeld(CLI::App& command, Input& input) {
 
 namespace {
 
-bool isStream(const Input& input) {
-  std::error_code error;
-  return input.isStandardInput() || std::filesystem::is_fifo(input.file, error);
-}
-
 tufted::Geometry readAny(const Input& input, const tufted::Progress& progress) {
   constexpr auto automatic = tufted::FileFormat::automatic;
   if (input.isStandardInput()) {
     std::ios::sync_with_stdio(false);  // without this std::cin cannot tell an error from the end
     return tufted::read(std::cin, input.name(), input.as, automatic, progress);
   }
-  if (!isStream(input)) return tufted::read(input.file, input.as, automatic, progress);
+  std::error_code error;
+  if (!std::filesystem::is_fifo(input.file, error)) return tufted::read(input.file, input.as, automatic, progress);
   std::ifstream pipe(input.file, std::ios::binary);
   if (!pipe) throw tufted::IoError(input.name() + ": cannot be read");
   return tufted::read(pipe, input.name(), input.as, automatic, progress);
@@ -173,8 +169,10 @@ void refuseTooMany(const Input& input) {
 
 tufted::FileSource openInput(Input& input, const tufted::Progress& progress) {
   const tufted::Selection selection = selectionOf(input.chosen);
-  tufted::FileSource source = isStream(input) ? sourceOf(readAny(input, progress), input.name(), selection, progress)
-                                              : tufted::sourceOf(input.file, input.as, selection, progress);
+  std::error_code error;
+  const bool is_file = !input.isStandardInput() && std::filesystem::is_regular_file(input.file, error);
+  tufted::FileSource source = is_file ? tufted::sourceOf(input.file, input.as, selection, progress)
+                                      : sourceOf(readAny(input, progress), input.name(), selection, progress);
   if (selection.isEmpty()) return source;
   input.chosen.of = source.of;
   input.chosen.kept = source.kept;

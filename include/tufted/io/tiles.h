@@ -19,7 +19,7 @@ using FileRows = std::function<void(const std::function<void(const std::vector<s
 struct FileSource : PointSource {
   std::int64_t of = 0;    ///< number of points in the file
   std::int64_t kept = 0;  ///< number of points that the selection keeps
-  double memory = 0;      ///< bytes that the source takes, for good or while it is read
+  double memory = 0;      ///< bytes that the source holds; a batch is among those that TileOptions::memory counts
   /// Rows of the points in the file; null if the points are those of the file, in order. That is so for an organized
   /// cloud, too: it has missing points where the selection drops some.
   FileRows rows = {};
@@ -31,7 +31,8 @@ struct FileSource : PointSource {
 /// PLY with lists at its points or elements before them, grids of NPY in Fortran's order; all files for
 /// Selection::thin; and for Selection::where NPY with six or more values per point and no names.
 ///
-/// Later passes, and `rows`, throw IoError naming the byte if the file has changed.
+/// Passes after the first throw IoError naming the byte if the file has changed. Elements behind the points of a PLY
+/// are not looked at.
 /// @param as as in read()
 /// @throws IoError as read(); InvalidInput as select(), and for a file with faces unless it is read as a cloud
 /// @throws Cancelled when `progress` returns false
