@@ -147,7 +147,7 @@ TEST(RecordFile, BatchesAreTheWhole) {
     EXPECT_EQ(file->layout().is_organized, whole.height > 1) << name;
     std::int64_t done = 0, batches = 0;
     std::vector<std::string> values(whole.fields.size());
-    file->forBatches([&](const Geometry& batch, std::int64_t first) {
+    file->forBatches([&, &name = name](const Geometry& batch, std::int64_t first) {
       const Eigen::Index count = batch.points.rows();
       EXPECT_EQ(first, done);
       EXPECT_TRUE(areSame(batch.points, whole.points.middleRows(first, count))) << name;
