@@ -22,8 +22,8 @@ Geometry readStl(const std::filesystem::path& path, std::string_view bytes);
 Geometry readNpy(const std::filesystem::path& path, std::string_view bytes);
 Geometry readVtk(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
 
-/// The format of a file by its extension, or if that is unknown by its content.
-/// @throws IoError if both are unknown
+/// The format of a file by its extension, or if that is unknown by its content; `automatic` if both are unknown.
+/// @param bytes the whole file; its beginning suffices for PLY, LAS, NPY, VTK and PCD
 FileFormat formatOf(const std::filesystem::path& path, std::string_view bytes);
 
 /// Whether the bytes begin like a file of this format. looksLikeXyz() is asked last, as any text of numbers passes it.

@@ -78,7 +78,7 @@ FileHead headOfPcd(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 FileHead headOfPly(const std::filesystem::path& path, std::string_view bytes) {
-  const io::PlyHeader header = io::parsePlyHeader(path, bytes);
+  const io::PlyHeader header = io::parsePlyHeader(path, bytes, bytes.size());
   const auto element = [&](const char* name) {
     return std::find_if(header.elements.begin(), header.elements.end(),
                         [name](const io::PlyElement& each) { return each.name == name; });
@@ -95,9 +95,9 @@ FileHead headOfPly(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 FileHead headOfLas(const std::filesystem::path& path, std::string_view bytes) {
-  const io::LasHeader header = io::parseLasHeader(path, bytes);
+  const io::LasHeader header = io::parseLasHeader(path, bytes, bytes.size());
   FileHead head = {.geometry = io::lasWithoutPoints(header), .points = header.points};
-  head.geometry.width = static_cast<int>(header.points);
+  head.geometry.width = static_cast<int>(io::checkedRows(path, header.points));
   return head;
 }
 

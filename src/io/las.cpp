@@ -98,10 +98,10 @@ Geometry lasWithoutPoints(const LasHeader& header) {
 
 Geometry readLas(const std::filesystem::path& path, std::string_view bytes) {
   static_assert(std::endian::native == std::endian::little, "the values are taken as they lie in the file");
-  const LasHeader header = parseLasHeader(path, bytes);
+  const LasHeader header = parseLasHeader(path, bytes, bytes.size());
   const std::vector<LasItem> items = lasItems(header.point_format);
   Geometry geometry = withAllFields(header);
-  geometry.width = static_cast<int>(header.points);
+  geometry.width = static_cast<int>(checkedRows(path, header.points));
   geometry.points.resize(header.points, 3);
   for (Field& field : geometry.fields) field.bytes.resize(header.points * field.count * sizeOf(field.type));
   for (std::int64_t begin = 0; begin < header.points; begin += block) {

@@ -15,7 +15,7 @@ bool looksLikeNpy(std::string_view bytes) {
 }
 
 Geometry readNpy(const std::filesystem::path& path, std::string_view bytes) {
-  const NpyTable table = parseNpyTable(bytes, path);
+  const NpyTable table = parseNpyTable(bytes, bytes.size(), path);
   const bool is_named = !table.members.empty();
   if (!is_named && (table.columns < 3 || (table.columns > 3 && table.columns > table.rows() && table.rows() > 0)))
     refuseByte(path, npy_dictionary,

@@ -28,8 +28,8 @@ std::optional<FieldType> fieldType(std::string_view text) {
 
 class PlyHeaderParser {
  public:
-  PlyHeaderParser(const std::filesystem::path& path, std::string_view bytes)
-      : path_(path), bytes_(bytes), scanner_(path, bytes) {}
+  PlyHeaderParser(const std::filesystem::path& path, std::string_view bytes, std::size_t all)
+      : path_(path), all_(all), scanner_(path, bytes) {}
 
   PlyHeader parse() {
     if (!scanner_.next() || lower(scanner_.tokens()[0]) != "ply") refuseLine(path_, 1, "does not begin with 'ply'");
@@ -126,14 +126,14 @@ class PlyHeaderParser {
       least += item * static_cast<std::uint64_t>(element.count);
     }
     if (header_.format == PlyHeader::Format::ascii && least > 0) --least;  // the last line may lack its end
-    const std::size_t rest = bytes_.size() - std::min(header_.body, bytes_.size());
+    const std::size_t rest = all_ - std::min(header_.body, all_);
     if (least > rest)
-      refuseByte(path_, bytes_.size(),
+      refuseByte(path_, all_,
                  "ends there; the elements of the header need at least " + std::to_string(header_.body + least));
   }
 
   const std::filesystem::path& path_;
-  std::string_view bytes_;
+  std::size_t all_;
   LineScanner scanner_;
   bool has_format_ = false;
   PlyHeader header_;
@@ -141,8 +141,8 @@ class PlyHeaderParser {
 
 }  // namespace
 
-PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes) {
-  return PlyHeaderParser(path, bytes).parse();
+PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes, std::size_t all) {
+  return PlyHeaderParser(path, bytes, all).parse();
 }
 
 }  // namespace tufted::io

@@ -8,7 +8,6 @@
 #include "io/point_table.h"
 
 namespace tufted::io {
-namespace {
 
 const char* plyType(FieldType type) {
   switch (type) {
@@ -30,6 +29,8 @@ const char* plyType(FieldType type) {
       return "double";
   }
 }
+
+namespace {
 
 const std::byte* toDouble(PointTable& table, const Field& field) {
   const std::size_t values = table.rows() * field.count;

@@ -73,6 +73,15 @@ Geometry readFormat(const std::filesystem::path& path, std::string_view bytes, b
   return io::readXyz(path, bytes);
 }
 
+[[noreturn]] void refuseFormat(const std::filesystem::path& path) {
+  const std::string extension = io::lower(path.extension().string());
+  std::string names;
+  for (const Extension& known : extensions) names += std::string(" ") + known.name;
+  io::refuseByte(path, 0,
+                 "unknown file type " + (extension.empty() ? "(no extension)" : io::quote(extension)) +
+                     ", and the content begins like none; known are" + names);
+}
+
 /// Runs `work`. @throws FileTooLarge naming the path when memory does not suffice
 template <class Work>
 Geometry withinMemory(const std::filesystem::path& path, const Work& work) {
@@ -88,15 +97,8 @@ Geometry withinMemory(const std::filesystem::path& path, const Work& work) {
 }  // namespace
 
 FileFormat io::formatOf(const std::filesystem::path& path, std::string_view bytes) {
-  FileFormat format = formatByExtension(path);
-  if (format == FileFormat::automatic) format = formatByContent(bytes);
-  if (format != FileFormat::automatic) return format;
-  const std::string extension = lower(path.extension().string());
-  std::string names;
-  for (const Extension& known : extensions) names += std::string(" ") + known.name;
-  refuseByte(path, 0,
-             "unknown file type " + (extension.empty() ? "(no extension)" : quote(extension)) +
-                 ", and the content begins like none; known are" + names);
+  const FileFormat format = formatByExtension(path);
+  return format == FileFormat::automatic ? formatByContent(bytes) : format;
 }
 
 Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as, FileFormat format,
@@ -104,6 +106,7 @@ Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs
   return withinMemory(name, [&] {
     if (bytes.empty()) io::refuse(name, "is empty");
     if (format == FileFormat::automatic) format = io::formatOf(name, bytes);
+    if (format == FileFormat::automatic) refuseFormat(name);
     Geometry geometry = readFormat(name, bytes, as != ReadAs::cloud, format, progress);
     if (as == ReadAs::mesh && !geometry.is_mesh) io::refuse(name, "has no faces");
     if (as == ReadAs::cloud && geometry.is_mesh) {

@@ -7,7 +7,7 @@
 
 Eigen::MatrixXd tufted::readArray(const std::filesystem::path& path) {
   const std::string bytes = io::readBytes(path);
-  const io::NpyTable array = io::parseNpyTable(bytes, path, true);
+  const io::NpyTable array = io::parseNpyTable(bytes, bytes.size(), path, true);
   if (array.dimensions > 2) io::refuse(path, "is not an array of N or of N x c values");
   if (array.end < bytes.size())
     io::refuseByte(path, array.end, std::to_string(bytes.size() - array.end) + " bytes behind the values of the array");

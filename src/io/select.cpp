@@ -55,7 +55,10 @@ bool isInside(const std::vector<Eigen::Vector2d>& corners, const Eigen::RowVecto
   return is_inside;
 }
 
-std::vector<int> rowsOf(const Geometry& geometry, const Selection& selection, const Progress& progress) {
+}  // namespace
+
+std::vector<int> io::chosenRows(const Geometry& geometry, const Selection& selection, const Progress& progress) {
+  check(geometry, selection);
   const Points& points = geometry.points;
   Mask kept(static_cast<std::size_t>(points.rows()), 1);
   for (const std::string& comparison : selection.where) require(kept, progress, io::where(geometry, comparison));
@@ -71,6 +74,13 @@ std::vector<int> rowsOf(const Geometry& geometry, const Selection& selection, co
   for (int& row : thinned) row = rows[static_cast<std::size_t>(row)];
   return thinned;
 }
+
+void io::refuseNone(std::int64_t points) {
+  throw InvalidInput("select: none of the " + std::to_string(points) +
+                     " points satisfies all conditions, must be at least one");
+}
+
+namespace {
 
 /// Makes missing pixels of all points except the rows.
 void blankOthers(Geometry& geometry, const std::vector<int>& rows) {
@@ -105,11 +115,8 @@ void removeFileRow(Geometry& geometry) {
 }
 
 std::vector<int> select(Geometry& geometry, const Selection& selection, const Progress& progress) {
-  check(geometry, selection);
-  std::vector<int> rows = rowsOf(geometry, selection, progress);
-  if (rows.empty() && geometry.points.rows() > 0)
-    throw InvalidInput("select: none of the " + std::to_string(geometry.points.rows()) +
-                       " points satisfies all conditions, must be at least one");
+  std::vector<int> rows = io::chosenRows(geometry, selection, progress);
+  if (rows.empty() && geometry.points.rows() > 0) io::refuseNone(geometry.points.rows());
   if (geometry.height > 1)
     blankOthers(geometry, rows);
   else

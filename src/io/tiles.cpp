@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -78,9 +79,22 @@ void writeArrays(io::RowStore& store, const TileReport& report, const TileOption
     file->close();
 }
 
-void writeFileRows(const std::vector<int>& rows, io::StagedFiles& files) {
-  ArrayFile file(files, "file_row", "<i4", {std::ssize(rows)});
-  file.append(rows);
+void writeFileRows(const TileSourceText& text, std::int64_t points, const TileOptions& options,
+                   io::StagedFiles& files) {
+  const bool is_wide = text.of > std::numeric_limits<std::int32_t>::max();
+  ArrayFile file(files, "file_row", is_wide ? "<i8" : "<i4", {points});
+  std::int64_t done = 0;
+  text.rows([&](const std::vector<std::int64_t>& rows) {
+    askProgress(options, static_cast<double>(done) / static_cast<double>(points));
+    done += std::ssize(rows);
+    if (is_wide)
+      file.append(rows);
+    else
+      file.append(std::vector<std::int32_t>(rows.begin(), rows.end()));
+  });
+  if (done != points)
+    throw InvalidInput("writeLaplacianByTiles: rows gives " + std::to_string(done) + " rows, must give " +
+                       std::to_string(points));
   file.close();
 }
 
@@ -129,16 +143,13 @@ std::vector<std::string> tileFiles() {
 
 TileReport writeLaplacianByTiles(const std::filesystem::path& dir, const PointSource& source,
                                  const TileOptions& options, const TileSourceText& text) {
-  if (!text.rows.empty() && std::ssize(text.rows) != source.size)
-    throw InvalidInput("writeLaplacianByTiles: rows has " + std::to_string(text.rows.size()) + " entries, must have " +
-                       std::to_string(source.size));
   io::StagedFiles files(dir);
   io::RowStore store(dir, source.size);
   TileOptions used = options;
   used.folder = dir;
   const TileReport report = laplacianByTiles(source, used, [&](const TileRows& rows) { store.add(rows); });
   writeArrays(store, report, options, files);
-  if (!text.rows.empty()) writeFileRows(text.rows, files);
+  if (text.rows) writeFileRows(text, source.size, options, files);
   const io::OutputPath path = files.stage(io::report_name);
   const std::string json = reportText(report, options, text, files.names());
   io::OutputFile file(path);

@@ -1,14 +1,10 @@
 #include "io/unread.h"
 
-#include <string>
-
 #include "io/errors.h"
 
 namespace tufted::io {
-namespace {
 
-/// Notes that the bytes `rest` are skipped, or refuses them if no point was read.
-void note(const std::filesystem::path& path, const std::string& place, std::string_view rest, Geometry& geometry) {
+void noteRest(const std::filesystem::path& path, const std::string& place, std::string_view rest, Geometry& geometry) {
   const bool are_zero = rest.find_first_not_of('\0') == std::string_view::npos;  // padding by PCL's writer
   const std::string count =
       std::to_string(rest.size()) + (are_zero ? " zero" : "") + (rest.size() == 1 ? " byte" : " bytes");
@@ -18,10 +14,8 @@ void note(const std::filesystem::path& path, const std::string& place, std::stri
                            " behind the last record that the file counts, not read");
 }
 
-}  // namespace
-
 void noteUnread(const std::filesystem::path& path, std::string_view bytes, std::size_t end, Geometry& geometry) {
-  if (end < bytes.size()) note(path, "byte " + std::to_string(end), bytes.substr(end), geometry);
+  if (end < bytes.size()) noteRest(path, "byte " + std::to_string(end), bytes.substr(end), geometry);
 }
 
 void noteUnreadLines(const std::filesystem::path& path, std::string_view text, LineScanner& scanner,
@@ -32,7 +26,7 @@ void noteUnreadLines(const std::filesystem::path& path, std::string_view text, L
 void noteUnreadFromHere(const std::filesystem::path& path, std::string_view text, const LineScanner& scanner,
                         Geometry& geometry) {
   const auto begin = static_cast<std::size_t>(scanner.tokens().front().data() - text.data());
-  note(path, "line " + std::to_string(scanner.line()), text.substr(begin), geometry);
+  noteRest(path, "line " + std::to_string(scanner.line()), text.substr(begin), geometry);
 }
 
 }  // namespace tufted::io

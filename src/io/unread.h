@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "io/line_scanner.h"
@@ -14,6 +15,10 @@ namespace tufted::io {
 /// @param geometry the records that were read
 /// @throws IoError naming the byte if there are bytes but no record, because such a file must not be read as empty
 void noteUnread(const std::filesystem::path& path, std::string_view bytes, std::size_t end, Geometry& geometry);
+
+/// noteUnread() for bytes of which the file is not in memory.
+/// @param place where they begin: "byte 120"
+void noteRest(const std::filesystem::path& path, const std::string& place, std::string_view rest, Geometry& geometry);
 
 /// noteUnread() for a text whose last record is in the scanner's current line. Blank lines and comments do not count.
 /// @throws IoError naming the line

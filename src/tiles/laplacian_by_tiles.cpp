@@ -51,9 +51,11 @@ void ask(const TileOptions& options, const char* stage, double share) {
 /// The points of a source, whose passes ask whether to go on.
 PointSource watched(const PointSource& source, const TileOptions& options) {
   return {source.size, [&](const std::function<void(const PointsRef& batch)>& take) {
+            std::int64_t done = 0;
             source.pass([&](const PointsRef& batch) {
-              ask(options, "sort", 0);
+              ask(options, "sort", static_cast<double>(done) / static_cast<double>(source.size));
               take(batch);
+              done += batch.rows();
             });
           }};
 }

@@ -68,13 +68,22 @@ TEST(TileFiles, HaveTheRowsOfChosenPoints) {
   const TemporaryDir dir;
   const Points points = sheet();
   TileSourceText text;
-  for (int i = 0; i < points.rows(); ++i) text.rows.push_back(2 * i);
-  writeLaplacianByTiles(dir.path(), sourceOf(points), twoTiles(), text);
-  const Eigen::MatrixXd rows = readArray(dir / "file_row.npy");
-  ASSERT_EQ(rows.rows(), points.rows());
-  EXPECT_EQ(rows(6401), 2 * 6401);
+  for (const std::int64_t first : {std::int64_t{0}, std::int64_t{5} << 32}) {  // int32 and int64
+    std::vector<std::int64_t> numbers;
+    for (int i = 0; i < points.rows(); ++i) numbers.push_back(first + 2 * i);
+    text.of = numbers.back() + 1;
+    text.rows = [&](const auto& take) {
+      take({numbers.begin(), numbers.begin() + 100});
+      take({numbers.begin() + 100, numbers.end()});
+    };
+    writeLaplacianByTiles(dir.path(), sourceOf(points), twoTiles(), text);
+    const Eigen::MatrixXd rows = readArray(dir / "file_row.npy");
+    ASSERT_EQ(rows.rows(), points.rows());
+    EXPECT_EQ(rows(6401), static_cast<double>(first) + 2 * 6401);
+    EXPECT_EQ(std::filesystem::file_size(dir / "file_row.npy"), 128 + (first == 0 ? 4u : 8u) * 6402);
+  }
   EXPECT_EQ(filesOfResult(dir.path()).size(), tileFiles().size() + 1);
-  text.rows.pop_back();
+  text.rows = [](const auto& take) { take({1, 2, 3}); };
   EXPECT_THROW(writeLaplacianByTiles(dir.path(), sourceOf(points), twoTiles(), text), InvalidInput);
 }
 

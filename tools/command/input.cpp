@@ -167,6 +167,18 @@ void refuseTooMany(const Input& input) {
   if (needed > usableMemory()) throw tufted::FileTooLarge(memoryText(input, head->points, needed));
 }
 
+tufted::FileSource openInput(Input& input, const tufted::Progress& progress) {
+  const tufted::Selection selection = selectionOf(input.chosen);
+  std::error_code error;
+  const bool is_file = !input.isStandardInput() && std::filesystem::is_regular_file(input.file, error);
+  tufted::FileSource source = is_file ? tufted::sourceOf(input.file, input.as, selection, progress)
+                                      : sourceOf(readAny(input, progress), input.name(), selection, progress);
+  if (selection.isEmpty()) return source;
+  input.chosen.of = source.of;
+  input.chosen.kept = source.kept;
+  return source;
+}
+
 tufted::Geometry readInput(Input& input, const tufted::Progress& progress) {
   tufted::Geometry geometry = readAny(input, progress);
   if (input.weld && !geometry.is_mesh)

@@ -13,6 +13,7 @@
 #include "tufted/io/head.h"
 #include "tufted/io/read.h"
 #include "tufted/io/select.h"
+#include "tufted/io/tiles.h"
 
 /// The options that choose points of a cloud before anything is computed, and what they chose.
 struct ChosenPoints {
@@ -67,6 +68,10 @@ std::optional<tufted::FileHead> readInputHead(const Input& input);
 /// points are chosen.
 /// @throws FileTooLarge; IoError as tufted::readHead()
 void refuseTooMany(const Input& input);
+
+/// The points of the input that were chosen, for tiles: in passes if the file allows that, see tufted::sourceOf(). Sets
+/// the counts of input.chosen. @throws as tufted::sourceOf()
+tufted::FileSource openInput(Input& input, const tufted::Progress& progress);
 
 /// Reads the input, and drops the points that were not chosen.
 /// @throws IoError and Cancelled as tufted::read(); InvalidInput for --weld with a cloud, whose equal points are always

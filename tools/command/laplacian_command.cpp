@@ -120,7 +120,8 @@ With --memory the rows of a cloud are those of the whole, but built and written 
                       as above, but representative with int64 indices
   normals.npy         N x 3, the sign of each normal arbitrary
   file_row.npy        as above
-There are no components, no cover, no copies of the points, and no noise is removed.)";
+There are no components, no cover, no copies of the points, and no noise is removed. LAS, binary PLY, binary PCD and NPY
+are read in passes, so they may be larger than memory. Other files, and all files with --thin, are read as a whole.)";
 
 struct Settings {
   Input input;

@@ -31,8 +31,7 @@ std::string megabytes(double bytes) {
   return numberText(bytes / 1e6) + " MB";
 }
 
-/// @param taken bytes that the points take
-tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build, double taken) {
+tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build) {
   if (build.preset != tufted::Preset::clean && !tiled.keeps_noise)
     throw tufted::InvalidInput("--memory needs --preset clean or --keep-noise: preset " + presetName(build.preset) +
                                " moves noisy points, which tiles cannot do yet");
@@ -42,7 +41,6 @@ tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build, double tak
   options.cloud.neighbors = build.cloud.neighbors;
   options.cloud.threads = build.cloud.threads;
   if (build.mollify) options.cloud.mollify = *build.mollify;
-  options.memory = tiled.memory - taken;
   return options;
 }
 
@@ -77,30 +75,25 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
   const auto start = std::chrono::steady_clock::now();
   ProgressBar bar(console.quiet);
   const tufted::Progress progress = showOn(bar);
-  progress("read", 0);
-  tufted::Geometry geometry = readInput(input, progress);
-  if (geometry.is_mesh)
-    throw tufted::InvalidInput("--memory applies to point clouds, and " + input.name() +
-                               " holds a mesh (--as cloud takes its vertices alone)");
-  if (interrupted()) throw tufted::Cancelled("cancelled");
-  std::vector<std::string> notes = std::move(geometry.notes);
-  const tufted::Points points = std::move(geometry.points);
-  geometry = {};  // fields and normals take memory
-  tufted::TileSourceText text;
-  text.rows = std::move(input.chosen.rows);
-  const auto taken =
-      static_cast<double>(static_cast<std::size_t>(points.size()) * sizeof(double) + text.rows.size() * sizeof(int));
-  tufted::TileOptions options = optionsOf(tiled, build, taken);
+  tufted::TileOptions options = optionsOf(tiled, build);
   options.progress = options.cloud.progress = progress;
+  progress("read", 0);
+  tufted::FileSource source = openInput(input, progress);
+  if (interrupted()) throw tufted::Cancelled("cancelled");
+  options.memory = tiled.memory - source.memory;
+  std::vector<std::string> notes = std::move(source.notes);
+  tufted::TileSourceText text;
+  text.of = source.of;
+  text.rows = std::move(source.rows);
   text.source = input.name();
   text.preset = presetName(build.preset);
   text.memory = tiled.memory_text;
   text.keep_noise = tiled.keeps_noise;
   if (input.chosen.of > 0)
     text.selection = input.chosen.json().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-  const std::string given = "--memory " + tiled.memory_text + ", of which the points take " + megabytes(taken);
+  const std::string given = "--memory " + tiled.memory_text + ", of which reading takes " + megabytes(source.memory);
   const tufted::TileReport report =
-      forOption(given, [&] { return tufted::writeLaplacianByTiles(out, tufted::sourceOf(points), options, text); });
+      forOption(given, [&] { return tufted::writeLaplacianByTiles(out, source, options, text); });
   bar.clear();
   if (report.active == 0) {
     tufted::Report counts;
