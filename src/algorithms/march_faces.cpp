@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/cover_source.h"
 #include "base/stage_clock.h"
 #include "cover/geometry.h"
 #include "tufted/errors.h"
@@ -110,7 +111,7 @@ bool isBent(const MarchFace& face, const std::vector<Eigen::Vector3d>& positions
   return false;
 }
 
-MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, const Workers& workers,
+MarchFaces wholeFaces(std::vector<DistinctFace> faces, int vertices, int exponent, const Workers& workers,
                       std::vector<Eigen::Vector3d> positions) {
   MarchFaces result;
   result.vertices = vertices;
@@ -126,6 +127,7 @@ MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int 
       if (!result.positions.empty()) face.is_bent = isBent(face, result.positions);
     }
   });
+  release(faces);
   groupByCorner(result);
   groupByEdge(result, workers);
   return result;
@@ -152,7 +154,7 @@ MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
   });
   std::vector<Eigen::Vector3d> positions = coarse.positions;
   for (int e = 0; e < coarse.edges && !coarse.positions.empty(); ++e) positions.push_back(coarse.middleOf(e));
-  MarchFaces fine = wholeFaces(faces, coarse.vertices + coarse.edges, 0, workers, std::move(positions));
+  MarchFaces fine = wholeFaces(std::move(faces), coarse.vertices + coarse.edges, 0, workers, std::move(positions));
   fine.exponent = coarse.exponent;
   return fine;
 }
@@ -164,30 +166,33 @@ std::size_t MarchFaces::bytes() const {
          bytesOf(edge_slots);
 }
 
-MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, int split,
+MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponent, int split,
                       const Workers& workers, const Points& positions) {
   std::vector<Eigen::Vector3d> scaled;
   scaled.reserve(static_cast<std::size_t>(positions.rows()));
   for (Eigen::Index i = 0; i < positions.rows(); ++i) scaled.push_back(scaledPosition(positions.row(i), exponent));
-  MarchFaces result = wholeFaces(faces, vertices, exponent, workers, std::move(scaled));
+  MarchFaces result = wholeFaces(std::move(faces), vertices, exponent, workers, std::move(scaled));
   for (int times = 1; times < split; ++times) result = splitInFour(result, workers);
   return result;
 }
 
-MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers,
-                      const std::vector<int>& number, const Points& positions) {
-  Points numbered = positions;
-  for (Eigen::Index i = 0; i < positions.rows() && !number.empty(); ++i) numbered.row(number[i]) = positions.row(i);
-  return marchFaces(distinctFaces(cover, workers, number), cover.vertices, unitOf(cover.length), split, workers,
+MarchFaces marchFaces(const Laplacian& laplacian, int split, const Workers& workers, const std::vector<int>& number) {
+  const CoverSource& cover = *laplacian.cover_source;
+  const auto vertices = static_cast<int>(laplacian.status.size());
+  Points numbered(number.empty() ? 0 : laplacian.positions.rows(), 3);
+  for (Eigen::Index i = 0; i < numbered.rows(); ++i) numbered.row(number[i]) = laplacian.positions.row(i);
+  return marchFaces(distinctFaces(cover, vertices, workers, number), vertices, unitOf(cover), split, workers,
                     numbered);
 }
 
-std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover) {
-  std::vector<int> number(static_cast<std::size_t>(cover.vertices), -1);
+std::vector<int> numbersByFaces(const Laplacian& laplacian) {
+  std::vector<int> number(laplacian.status.size(), -1);
   int next = 0;
-  for (const auto& corners : cover.faces)
+  const CoverSource& cover = *laplacian.cover_source;
+  cover.visitFaces(0, cover.parts(), [&](const std::array<int, 3>& corners, const double*) {
     for (const int corner : corners)
       if (number[corner] < 0) number[corner] = next++;
+  });
   for (int& of_unused : number)
     if (of_unused < 0) of_unused = next++;
   return number;

@@ -70,13 +70,12 @@ constexpr int thirdSlot(int a, int b) {
 /// @param split how often each face is cut into four, 0 to 2. The march itself makes the last cut, the one before is
 /// stored here: the midpoint of edge e of the given faces is then vertex `vertices + e`.
 /// @param positions of each vertex, in the caller's unit; no rows: not known
-MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, int split,
+MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponent, int split,
                       const Workers& workers, const Points& positions = {});
-/// Makes the faces of a cover for a march.
-/// @param number new number of each vertex, a permutation; empty: unchanged
-/// @param positions of each vertex of the cover, in the caller's unit; none: they are not known
-MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers,
-                      const std::vector<int>& number = {}, const Points& positions = {});
+/// Makes the faces of a Laplacian's cover for a march.
+/// @param number new number of each point, a permutation; empty: unchanged, and without positions
+MarchFaces marchFaces(const Laplacian& laplacian, int split, const Workers& workers,
+                      const std::vector<int>& number = {});
 
 /// A position in units of 2^exponent.
 inline Eigen::Vector3d scaledPosition(const Eigen::RowVector3d& position, int exponent) {
@@ -89,9 +88,9 @@ inline Eigen::Vector3d scaledPosition(const Eigen::RowVector3d& position, int ex
 /// @param faces of the cover, with its numbers and not cut
 void setLoopEnds(const IntrinsicTriangulation& cover, MarchFaces& faces);
 
-/// Numbers the vertices of a cover in the order of first use by its faces. Those of clouds follow the Morton curve, so
+/// Numbers points in the order of first use by the faces of the cover. Those of clouds follow the Morton curve, so
 /// neighbours are near each other in memory.
-std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover);
+std::vector<int> numbersByFaces(const Laplacian& laplacian);
 
 /// How often to cut the faces: `split` or, if empty, the default of DistanceOptions::split.
 /// @param function named in errors

@@ -55,13 +55,13 @@ struct MarchingDistance::CoverFace {
 };
 
 MarchingDistance::MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options)
-    : number_(numbersByFaces(laplacian.cover())),
-      vertices_(laplacian.cover().vertices),
+    : number_(numbersByFaces(laplacian)),
+      vertices_(static_cast<int>(laplacian.status.size())),
       split_(split),
       maximum_(options.maximum),
       threads_(options.solver.threads) {
   const Workers workers(threads_, options.solver.progress);
-  faces_ = marchFaces(laplacian.cover(), split_, workers, number_, laplacian.positions);
+  faces_ = marchFaces(laplacian, split_, workers, number_);
   report_.method = "marching";
   report_.unknowns = std::int64_t{faces_.vertices} + (split_ > 0 ? faces_.edges : 0);
   report_.bytes = faces_.bytes() + bytesOf(number_);
