@@ -24,8 +24,11 @@ struct MarchFace {
   std::array<int, 3> corners;
   std::array<int, 3> edges;        ///< edge of each side
   std::array<double, 3> opposite;  ///< length of each side
-  double double_area;              ///< base times height
-  bool is_bent = false;  ///< whether a side is longer than the straight line between its ends in MarchFaces::positions
+  double signed_area;              ///< base times height, with the sign of isBent(), which saves memory
+
+  double doubleArea() const { return std::abs(signed_area); }
+  /// Whether a side is longer than the straight line between its ends in MarchFaces::positions.
+  bool isBent() const { return std::signbit(signed_area); }
 };
 
 /// Triangles with their edges, and those that meet at each vertex and edge, in any number. Slot 3 f + k is corner k of
@@ -70,8 +73,9 @@ constexpr int thirdSlot(int a, int b) {
 /// @param split how often each face is cut into four, 0 to 2. The march itself makes the last cut, the one before is
 /// stored here: the midpoint of edge e of the given faces is then vertex `vertices + e`.
 /// @param positions of each vertex, in the caller's unit; no rows: not known
-MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponent, int split,
-                      const Workers& workers, const Points& positions = {});
+/// @param number place of each vertex of `positions` among the vertices, a permutation; empty: unchanged
+MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponent, int split, const Workers& workers,
+                      const Points& positions = {}, const std::vector<int>& number = {});
 /// Makes the faces of a Laplacian's cover for a march.
 /// @param number new number of each point, a permutation; empty: unchanged, and without positions
 MarchFaces marchFaces(const Laplacian& laplacian, int split, const Workers& workers,
