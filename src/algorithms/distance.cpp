@@ -65,7 +65,7 @@ struct DistanceSolver::State {
   Components components;
   std::vector<int> representative;
   std::vector<PointStatus> status;
-  std::shared_ptr<const IntrinsicTriangulation> cover;  ///< shared with the Laplacian or its builder
+  std::shared_ptr<const CoverSource> cover;  ///< shared with the Laplacian or its builder
   double maximum = infinity;
   std::optional<MarchingDistance> marching;
   std::optional<HeatDistance> heat;
@@ -102,7 +102,7 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   state->components = findComponents(laplacian);
   state->representative = laplacian.representative;
   state->status = laplacian.status;
-  state->cover = {laplacian.cover_source, &laplacian.cover()};
+  state->cover = laplacian.cover_source;
   state->maximum = options.maximum;
   if (options.method == DistanceMethod::marching)
     state->report = state->marching.emplace(laplacian, split, options).report();

@@ -34,7 +34,7 @@ struct Layout {
       : after(0, 0),
         before(faces.lengthAt(slot), 0),
         own(apexLeftOf(after, before, faces.lengthAt(previousSide(slot)), faces.lengthAt(nextSide(slot)),
-                       faces.faces[slot / 3].double_area)) {}
+                       faces.faces[slot / 3].doubleArea())) {}
 };
 
 /// The best step from a point to the sides of its faces: the target is unfolded beyond each half of a side by the

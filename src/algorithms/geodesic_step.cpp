@@ -89,7 +89,7 @@ FaceAhead crossSide(const MarchFaces& faces, const FaceAhead& before, const Leav
   ahead.corners[left % 3] = at_left;
   ahead.corners[right % 3] = at_right;
   ahead.corners[door.enter % 3] =
-      apexLeftOf(at_left, at_right, faces.lengthAt(right), faces.lengthAt(left), faces.faces[ahead.face].double_area);
+      apexLeftOf(at_left, at_right, faces.lengthAt(right), faces.lengthAt(left), faces.faces[ahead.face].doubleArea());
   return ahead;
 }
 

@@ -75,7 +75,8 @@ HeatDistance::HeatDistance(const Laplacian& laplacian, const Components& compone
                        .report = {}}) {
   State& state = *state_;
   const Workers workers(options.solver.threads, options.solver.progress);
-  state.surface = surfaceFaces(laplacian.cover(), faceScale(laplacian.kind), workers);
+  state.surface =
+      surfaceFaces(*laplacian.cover_source, static_cast<int>(laplacian.L.rows()), faceScale(laplacian.kind), workers);
   state.threads = options.solver.threads;
   const SurfaceFaces& surface = state.surface;
   const VectorXd unit =

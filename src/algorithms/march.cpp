@@ -34,7 +34,7 @@ struct WholeFaces {
       const MarchFace& face = faces.faces[faces.corner_slots[s] / 3];
       const int k = faces.corner_slots[s] % 3, i = (k + 1) % 3, j = (k + 2) % 3;
       visit(MarchTriangle{face.corners[i], face.corners[j], face.opposite[j], face.opposite[i], face.opposite[k],
-                          face.double_area, face.is_bent});
+                          face.doubleArea(), face.isBent()});
     }
   }
 };
@@ -59,14 +59,14 @@ struct SplitFaces {
       const MarchFace& face = faces.faces[slots[s] / 3];
       const int k = slots[s] % 3, i = (k + 1) % 3, j = (k + 2) % 3;
       const double side_i = face.opposite[i] / 2, side_j = face.opposite[j] / 2, side_k = face.opposite[k] / 2;
-      const double double_area = face.double_area / 4;
+      const double double_area = face.doubleArea() / 4;
       const int middle_i = n + face.edges[i], middle_j = n + face.edges[j];
       if (is_middle) {
-        visit(MarchTriangle{face.corners[i], middle_j, side_k, side_i, side_j, double_area, face.is_bent});
-        visit(MarchTriangle{face.corners[j], middle_i, side_k, side_j, side_i, double_area, face.is_bent});
-        visit(MarchTriangle{middle_i, middle_j, side_j, side_i, side_k, double_area, face.is_bent});
+        visit(MarchTriangle{face.corners[i], middle_j, side_k, side_i, side_j, double_area, face.isBent()});
+        visit(MarchTriangle{face.corners[j], middle_i, side_k, side_j, side_i, double_area, face.isBent()});
+        visit(MarchTriangle{middle_i, middle_j, side_j, side_i, side_k, double_area, face.isBent()});
       } else {
-        visit(MarchTriangle{middle_j, middle_i, side_j, side_i, side_k, double_area, face.is_bent});
+        visit(MarchTriangle{middle_j, middle_i, side_j, side_i, side_k, double_area, face.isBent()});
       }
     }
   }
@@ -227,13 +227,14 @@ class March {
   }
 
   /// Lowers distances along edges until none exceeds that of a neighbour by more than the length of their edge. Only
-  /// vertices that were frozen after farther ones can lower others.
+  /// vertices that were frozen after farther ones can lower others. The heap, now empty, has vertices instead of
+  /// labels.
   void limitSlopes() {
     const auto lower = [&](int a, int b, double ab) {
       const double distance = result_.distance[a] + ab;
       if (!(distance < result_.distance[b] && result_.distance[b] < infinity)) return;
       result_.distance[b] = distance;
-      result_.source[b] = result_.source[a];
+      if (!result_.source.empty()) result_.source[b] = result_.source[a];
       heap_.lower(b, distance);
     };
     const auto relax = [&](int a) {
@@ -242,8 +243,6 @@ class March {
         lower(a, t.c, t.ac);
       });
     };
-    if (late_.empty()) return;
-    heap_ = MarchHeap(faces_.size());  // now of vertices, not of labels
     for (const int a : late_) relax(a);
     while (!heap_.empty()) {
       const int a = heap_.top().number;

@@ -20,9 +20,10 @@ struct MarchStart {
 /// Result of a march; lengths are in the unit of the faces.
 struct MarchResult {
   std::vector<double> distance;  ///< of the vertices, then, if faces were cut, of the midpoints of edges
-  std::vector<int> source;       ///< nearest source of each, of equally near ones the first; -1: not reached
-  std::int64_t visits = 0;       ///< number of labels that were frozen
-  std::int64_t lowered = 0;      ///< how often a distance exceeded that of a neighbour plus their edge, and was reduced
+  std::vector<int> source;   ///< nearest source of each, of equally near ones the first; -1: not reached. Empty if all
+                             ///< starts are of one source
+  std::int64_t visits = 0;   ///< number of labels that were frozen
+  std::int64_t lowered = 0;  ///< how often a distance exceeded that of a neighbour plus their edge, and was reduced
 };
 
 /// Marches from the starts over all faces. Distances are the least of those from each source, see

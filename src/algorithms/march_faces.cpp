@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
+#include "base/cover_source.h"
 #include "base/stage_clock.h"
 #include "cover/geometry.h"
 #include "tufted/errors.h"
@@ -68,34 +70,35 @@ void sidesAt(const MarchFaces& faces, int vertex, std::vector<Side>& sides) {
   std::sort(sides.begin(), sides.end());
 }
 
-/// The edges whose smaller end lies in one block of vertices.
-struct EdgeBlock {
-  std::vector<int> sizes;  ///< number of sides of each edge
-  std::vector<int> slots;
-};
-
 void groupByEdge(MarchFaces& result, const Workers& workers) {
-  std::vector<EdgeBlock> blocks((result.vertices + cheap_block - 1) / cheap_block);
+  std::vector<int> first(static_cast<std::size_t>(result.vertices) + 1, 0);  // place of the sides of each vertex
+  for (const MarchFace& face : result.faces) {
+    first[face.corners[0] + 1] += 2;
+    ++first[face.corners[1] + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  result.edge_slots.resize(3 * result.faces.size());
+  // The first side of each edge is stored as its complement, which is negative.
   workers.forBlocks("edges", result.vertices, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
-    EdgeBlock& block = blocks[begin / cheap_block];
     std::vector<Side> sides;
     for (auto v = begin; v < end; ++v) {
       sidesAt(result, static_cast<int>(v), sides);
       for (std::size_t i = 0; i < sides.size(); ++i) {
-        if (i == 0 || !sides[i - 1].isOneWith(sides[i])) block.sizes.push_back(0);
-        ++block.sizes.back();
-        block.slots.push_back(sides[i].slot);
+        const bool is_first = i == 0 || !sides[i - 1].isOneWith(sides[i]);
+        result.edge_slots[first[v] + i] = is_first ? ~sides[i].slot : sides[i].slot;
       }
     }
   });
-  result.edge_offset = {0};
-  result.edge_slots.reserve(3 * result.faces.size());
-  for (EdgeBlock& block : blocks) {
-    for (const int size : block.sizes) result.edge_offset.push_back(result.edge_offset.back() + size);
-    result.edge_slots.insert(result.edge_slots.end(), block.slots.begin(), block.slots.end());
-    block = {};
+  result.edges = static_cast<int>(
+      std::count_if(result.edge_slots.begin(), result.edge_slots.end(), [](int slot) { return slot < 0; }));
+  result.edge_offset.reserve(static_cast<std::size_t>(result.edges) + 1);
+  for (std::size_t i = 0; i < result.edge_slots.size(); ++i) {
+    int& slot = result.edge_slots[i];
+    if (slot >= 0) continue;
+    slot = ~slot;
+    result.edge_offset.push_back(static_cast<int>(i));
   }
-  result.edges = static_cast<int>(result.edge_offset.size()) - 1;
+  result.edge_offset.push_back(static_cast<int>(result.edge_slots.size()));
   for (int e = 0; e < result.edges; ++e) {
     for (int i = result.edge_offset[e]; i < result.edge_offset[e + 1]; ++i)
       result.faces[result.edge_slots[i] / 3].edges[result.edge_slots[i] % 3] = e;
@@ -110,7 +113,7 @@ bool isBent(const MarchFace& face, const std::vector<Eigen::Vector3d>& positions
   return false;
 }
 
-MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, const Workers& workers,
+MarchFaces wholeFaces(std::vector<DistinctFace> faces, int vertices, int exponent, const Workers& workers,
                       std::vector<Eigen::Vector3d> positions) {
   MarchFaces result;
   result.vertices = vertices;
@@ -122,10 +125,11 @@ MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int 
       MarchFace& face = result.faces[f];
       face.corners = faces[f].corners;
       for (int k = 0; k < 3; ++k) face.opposite[k] = std::ldexp(faces[f].opposite[k], -exponent);
-      face.double_area = 2 * triangleArea(face.opposite[0], face.opposite[1], face.opposite[2]);
-      if (!result.positions.empty()) face.is_bent = isBent(face, result.positions);
+      face.signed_area = 2 * triangleArea(face.opposite[0], face.opposite[1], face.opposite[2]);
+      if (!result.positions.empty() && isBent(face, result.positions)) face.signed_area = -face.signed_area;
     }
   });
+  release(faces);
   groupByCorner(result);
   groupByEdge(result, workers);
   return result;
@@ -152,7 +156,7 @@ MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
   });
   std::vector<Eigen::Vector3d> positions = coarse.positions;
   for (int e = 0; e < coarse.edges && !coarse.positions.empty(); ++e) positions.push_back(coarse.middleOf(e));
-  MarchFaces fine = wholeFaces(faces, coarse.vertices + coarse.edges, 0, workers, std::move(positions));
+  MarchFaces fine = wholeFaces(std::move(faces), coarse.vertices + coarse.edges, 0, workers, std::move(positions));
   fine.exponent = coarse.exponent;
   return fine;
 }
@@ -164,30 +168,34 @@ std::size_t MarchFaces::bytes() const {
          bytesOf(edge_slots);
 }
 
-MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, int split,
-                      const Workers& workers, const Points& positions) {
-  std::vector<Eigen::Vector3d> scaled;
-  scaled.reserve(static_cast<std::size_t>(positions.rows()));
-  for (Eigen::Index i = 0; i < positions.rows(); ++i) scaled.push_back(scaledPosition(positions.row(i), exponent));
-  MarchFaces result = wholeFaces(faces, vertices, exponent, workers, std::move(scaled));
+MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponent, int split, const Workers& workers,
+                      const Points& positions, const std::vector<int>& number) {
+  std::vector<Eigen::Vector3d> scaled(static_cast<std::size_t>(positions.rows()));
+  for (Eigen::Index i = 0; i < positions.rows(); ++i)
+    scaled[number.empty() ? i : number[i]] = scaledPosition(positions.row(i), exponent);
+  MarchFaces result = wholeFaces(std::move(faces), vertices, exponent, workers, std::move(scaled));
   for (int times = 1; times < split; ++times) result = splitInFour(result, workers);
   return result;
 }
 
-MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers,
-                      const std::vector<int>& number, const Points& positions) {
-  Points numbered = positions;
-  for (Eigen::Index i = 0; i < positions.rows() && !number.empty(); ++i) numbered.row(number[i]) = positions.row(i);
-  return marchFaces(distinctFaces(cover, workers, number), cover.vertices, unitOf(cover.length), split, workers,
-                    numbered);
+MarchFaces marchFaces(const Laplacian& laplacian, int split, const Workers& workers, const std::vector<int>& number) {
+  const CoverSource& cover = *laplacian.cover_source;
+  const auto vertices = static_cast<int>(laplacian.status.size());
+  const int exponent = unitOf(cover);
+  const Points unknown;
+  const Points& positions = number.empty() ? unknown : laplacian.positions;
+  return marchFaces(distinctFaces(cover, vertices, workers, number), vertices, exponent, split, workers, positions,
+                    number);
 }
 
-std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover) {
-  std::vector<int> number(static_cast<std::size_t>(cover.vertices), -1);
+std::vector<int> numbersByFaces(const Laplacian& laplacian) {
+  std::vector<int> number(laplacian.status.size(), -1);
   int next = 0;
-  for (const auto& corners : cover.faces)
+  const CoverSource& cover = *laplacian.cover_source;
+  cover.visitFaces(0, cover.parts(), [&](const std::array<int, 3>& corners, const double*) {
     for (const int corner : corners)
       if (number[corner] < 0) number[corner] = next++;
+  });
   for (int& of_unused : number)
     if (of_unused < 0) of_unused = next++;
   return number;

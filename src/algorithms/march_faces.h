@@ -24,8 +24,11 @@ struct MarchFace {
   std::array<int, 3> corners;
   std::array<int, 3> edges;        ///< edge of each side
   std::array<double, 3> opposite;  ///< length of each side
-  double double_area;              ///< base times height
-  bool is_bent = false;  ///< whether a side is longer than the straight line between its ends in MarchFaces::positions
+  double signed_area;              ///< base times height, with the sign of isBent(), which saves memory
+
+  double doubleArea() const { return std::abs(signed_area); }
+  /// Whether a side is longer than the straight line between its ends in MarchFaces::positions.
+  bool isBent() const { return std::signbit(signed_area); }
 };
 
 /// Triangles with their edges, and those that meet at each vertex and edge, in any number. Slot 3 f + k is corner k of
@@ -70,13 +73,13 @@ constexpr int thirdSlot(int a, int b) {
 /// @param split how often each face is cut into four, 0 to 2. The march itself makes the last cut, the one before is
 /// stored here: the midpoint of edge e of the given faces is then vertex `vertices + e`.
 /// @param positions of each vertex, in the caller's unit; no rows: not known
-MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, int split,
-                      const Workers& workers, const Points& positions = {});
-/// Makes the faces of a cover for a march.
-/// @param number new number of each vertex, a permutation; empty: unchanged
-/// @param positions of each vertex of the cover, in the caller's unit; none: they are not known
-MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers,
-                      const std::vector<int>& number = {}, const Points& positions = {});
+/// @param number place of each vertex of `positions` among the vertices, a permutation; empty: unchanged
+MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponent, int split, const Workers& workers,
+                      const Points& positions = {}, const std::vector<int>& number = {});
+/// Makes the faces of a Laplacian's cover for a march.
+/// @param number new number of each point, a permutation; empty: unchanged, and without positions
+MarchFaces marchFaces(const Laplacian& laplacian, int split, const Workers& workers,
+                      const std::vector<int>& number = {});
 
 /// A position in units of 2^exponent.
 inline Eigen::Vector3d scaledPosition(const Eigen::RowVector3d& position, int exponent) {
@@ -89,9 +92,9 @@ inline Eigen::Vector3d scaledPosition(const Eigen::RowVector3d& position, int ex
 /// @param faces of the cover, with its numbers and not cut
 void setLoopEnds(const IntrinsicTriangulation& cover, MarchFaces& faces);
 
-/// Numbers the vertices of a cover in the order of first use by its faces. Those of clouds follow the Morton curve, so
+/// Numbers points in the order of first use by the faces of the cover. Those of clouds follow the Morton curve, so
 /// neighbours are near each other in memory.
-std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover);
+std::vector<int> numbersByFaces(const Laplacian& laplacian);
 
 /// How often to cut the faces: `split` or, if empty, the default of DistanceOptions::split.
 /// @param function named in errors

@@ -36,12 +36,7 @@ class LabelsOfOneSource {
   static bool mayBe(int /*label*/, double /*distance*/) { return true; }
   static void setReach(int /*label*/, double /*longest_edge*/) {}
 
-  void takeNearest(std::vector<double>& distance, std::vector<int>& source) {
-    source.assign(distance_.size(), -1);
-    for (std::size_t v = 0; v < distance_.size(); ++v)
-      if (distance_[v] < std::numeric_limits<double>::infinity()) source[v] = source_;
-    distance = std::move(distance_);
-  }
+  void takeNearest(std::vector<double>& distance, std::vector<int>& /*source*/) { distance = std::move(distance_); }
 
  private:
   int source_;

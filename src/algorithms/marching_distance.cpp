@@ -27,7 +27,7 @@ using Plane = std::array<Eigen::Vector2d, 3>;
 Plane layOut(const MarchFace& face) {
   const auto& [a, b, c] = face.opposite;
   const Eigen::Vector2d first(0, 0), second(c, 0);
-  return {first, second, apexLeftOf(first, second, b, a, face.double_area)};
+  return {first, second, apexLeftOf(first, second, b, a, face.doubleArea())};
 }
 
 /// The numbers of the sources without repeated ones.
@@ -55,13 +55,13 @@ struct MarchingDistance::CoverFace {
 };
 
 MarchingDistance::MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options)
-    : number_(numbersByFaces(laplacian.cover())),
-      vertices_(laplacian.cover().vertices),
+    : number_(numbersByFaces(laplacian)),
+      vertices_(static_cast<int>(laplacian.status.size())),
       split_(split),
       maximum_(options.maximum),
       threads_(options.solver.threads) {
   const Workers workers(threads_, options.solver.progress);
-  faces_ = marchFaces(laplacian.cover(), split_, workers, number_, laplacian.positions);
+  faces_ = marchFaces(laplacian, split_, workers, number_);
   report_.method = "marching";
   report_.unknowns = std::int64_t{faces_.vertices} + (split_ > 0 ? faces_.edges : 0);
   report_.bytes = faces_.bytes() + bytesOf(number_);
@@ -78,7 +78,7 @@ MarchingDistance::CoverFace MarchingDistance::coverFace(int face) const {
   // The parts are stored one after another: one at each corner, then the one between the midpoints.
   const MarchFace* const part = &faces_.faces[face / 4 * 4];
   result.parts = {part, 4};
-  result.face.double_area = 4 * part[3].double_area;
+  result.face.signed_area = 4 * part[3].doubleArea();
   const auto& middles = part[3].corners;
   for (int k = 0; k < 3; ++k) {
     // Corners of a part ascend, and vertices of the cover come before midpoints.
@@ -147,7 +147,7 @@ void MarchingDistance::startInFaces(const PlaceInCover& place, std::vector<March
   startIn(*home, weights, place.source, starts);
   const std::array<int, 3>& corners = home->face.corners;
   const std::array<double, 3>& sides = home->face.opposite;
-  const double double_area = home->face.double_area;
+  const double double_area = home->face.doubleArea();
   for (int k = 0; k < 3; ++k) {
     const int first = (k + 1) % 3, second = (k + 2) % 3;
     const double longest = *std::max_element(sides.begin(), sides.end());
@@ -211,7 +211,8 @@ NearestSources MarchingDistance::query(const std::vector<SurfacePoint>& sources,
   result.source.resize(number_.size());
   for (int i = 0; i < vertices_; ++i) {
     result.distance[i] = std::ldexp(found.distance[number_[i]], faces_.exponent);
-    result.source[i] = found.source[number_[i]];
+    const bool is_reached = result.distance[i] < std::numeric_limits<double>::infinity();
+    result.source[i] = !found.source.empty() ? found.source[number_[i]] : is_reached ? starts[0].source : -1;
   }
   return result;
 }

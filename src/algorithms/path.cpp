@@ -100,7 +100,7 @@ PathSolver::PathSolver(const Laplacian& laplacian, const PathOptions& options) {
                        " rows, must have " + std::to_string(n));
   const Workers workers(options.threads, options.progress);
   auto state = std::make_unique<State>();
-  state->faces = marchFaces(laplacian.cover(), 0, workers);
+  state->faces = marchFaces(laplacian, 0, workers);
   setLoopEnds(laplacian.cover(), state->faces);
   state->positions = laplacian.positions;
   state->representative = laplacian.representative;

@@ -94,9 +94,12 @@ std::vector<PlaceInCover> placesOf(const IntrinsicTriangulation& cover, const We
 
 }  // namespace
 
-std::vector<PlaceInCover> placesInCover(const std::string& function, const IntrinsicTriangulation& cover,
+std::vector<PlaceInCover> placesInCover(const std::string& function, const CoverSource& source_of_cover,
                                         const std::vector<SurfacePoint>& sources) {
-  if (!std::all_of(sources.begin(), sources.end(), isAtVertex)) checkGlue(function, cover);
+  const IntrinsicTriangulation none;
+  const bool are_vertices = std::all_of(sources.begin(), sources.end(), isAtVertex);
+  const IntrinsicTriangulation& cover = are_vertices ? none : source_of_cover.cover();
+  checkGlue(function, cover);
   const auto sides = sidesAt(cover, sources);
   std::vector<PlaceInCover> places;
   for (int s = 0; s < std::ssize(sources); ++s) {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/cover_source.h"
 #include "tufted/distance.h"
-#include "tufted/intrinsic_triangulation.h"
 
 namespace tufted {
 
@@ -17,11 +17,11 @@ struct PlaceInCover {
 
 /// The places of sources in a cover, where flips may have removed the triangles around them (docs/algorithm.md, section
 /// 18). A point inside a triangle has one place on the front and one on the back.
-/// @param cover with corners in range
+/// @param cover with corners in range; asked for only if a source lies inside a triangle
 /// @param sources with corners in range
 /// @returns places in the order of the sources
 /// @throws InvalidInput for a cover that is not glued, or for a source in a triangle that the surface does not have
-std::vector<PlaceInCover> placesInCover(const std::string& function, const IntrinsicTriangulation& cover,
+std::vector<PlaceInCover> placesInCover(const std::string& function, const CoverSource& source_of_cover,
                                         const std::vector<SurfacePoint>& sources);
 
 }  // namespace tufted

@@ -130,14 +130,12 @@ Patch patchOf(Faces faces, const Workers& workers) {
       if (patch.number_of.try_emplace(corner, 0).second) patch.points.push_back(corner);
   std::sort(patch.points.begin(), patch.points.end());
   for (std::size_t i = 0; i < patch.points.size(); ++i) patch.number_of[patch.points[i]] = static_cast<int>(i);
-  IntrinsicTriangulation local;
-  local.vertices = static_cast<int>(patch.points.size());
-  local.faces = std::move(faces.corners);
-  local.length = std::move(faces.length);
-  for (auto& face : local.faces)
+  const auto vertices = static_cast<int>(patch.points.size());
+  for (auto& face : faces.corners)
     for (int& corner : face) corner = patch.number_of.find(corner)->second;
-  patch.faces = distinctFaces(local, workers);
-  patch.exponent = unitOf(local.length);
+  StoredCover local({vertices, std::move(faces.corners), {}, std::move(faces.length)});
+  patch.faces = distinctFaces(local, vertices, workers);
+  patch.exponent = unitOf(local);
   return patch;
 }
 

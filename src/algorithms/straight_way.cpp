@@ -26,7 +26,7 @@ struct Exit {
 
 std::optional<Strip> straightWay(const MarchFaces& faces, int start, double angle, double length, int target,
                                  int most_faces) {
-  const auto areaOf = [&](int slot) { return faces.faces[slot / 3].double_area; };
+  const auto areaOf = [&](int slot) { return faces.faces[slot / 3].doubleArea(); };
   const int second = nextSide(start), third = previousSide(start);
   const Vector2d end = length * Vector2d(std::cos(angle), std::sin(angle)), right(faces.lengthAt(third), 0);
   const Vector2d left =

@@ -35,7 +35,7 @@ struct Layout {
 /// Unfolds a strip into the plane, its start at 0.
 Layout layOut(const MarchFaces& faces, const Strip& strip) {
   Layout layout;
-  const auto areaOf = [&](int slot) { return faces.faces[slot / 3].double_area; };
+  const auto areaOf = [&](int slot) { return faces.faces[slot / 3].doubleArea(); };
   // The first face counterclockwise from its start.
   const int second = nextSide(strip.start), third = previousSide(strip.start);
   std::array<Vector2d, 3> corners;  // by corner of the face
@@ -194,7 +194,7 @@ bool hasClearEdges(const MarchFaces& faces, int face) {
 
 double cornerAngle(const MarchFaces& faces, int slot) {
   const double a = faces.lengthAt(slot), b = faces.lengthAt(nextSide(slot)), c = faces.lengthAt(previousSide(slot));
-  return std::atan2(faces.faces[slot / 3].double_area, (b * b + (c - a) * (c + a)) / 2);
+  return std::atan2(faces.faces[slot / 3].doubleArea(), (b * b + (c - a) * (c + a)) / 2);
 }
 
 int cornerBeyond(const MarchFaces& faces, int corner, int leave, int enter) {

@@ -49,11 +49,9 @@ std::vector<DistinctFace> usableFaces(const PointsRef& points, const TrianglesRe
 }
 
 MarchFaces facesOf(const PointsRef& points, const TrianglesRef& triangles) {
-  const std::vector<DistinctFace> faces = usableFaces(points, triangles);
-  std::vector<double> lengths;
-  lengths.reserve(3 * faces.size());
-  for (const DistinctFace& face : faces) lengths.insert(lengths.end(), face.opposite.begin(), face.opposite.end());
-  return marchFaces(faces, static_cast<int>(points.rows()), unitOf(lengths), 0, Workers(1, {}));
+  std::vector<DistinctFace> faces = usableFaces(points, triangles);
+  const int exponent = unitOf(faces);
+  return marchFaces(std::move(faces), static_cast<int>(points.rows()), exponent, 0, Workers(1, {}));
 }
 
 /// Coordinates in a frame.

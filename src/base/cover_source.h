@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,16 @@ class CoverSource {
   virtual const IntrinsicTriangulation& cover() const = 0;
   /// The cover if it is stored, so that it costs nothing to ask for it; otherwise null.
   virtual const IntrinsicTriangulation* stored() const { return nullptr; }
+  /// The number of parts in which visitFaces() has the faces: stars of a cloud, otherwise faces.
+  virtual std::int64_t parts() const { return cover().size(); }
+  using FaceVisit = std::function<void(const std::array<int, 3>& corners, const double* lengths)>;
+  /// Visits the faces of some parts, in the order of cover(). Of a cloud it takes them from the stars: the cover would
+  /// take about 600 bytes per point.
+  /// @param visit gets the corners of a face, and its lengths from each corner to the next one
+  virtual void visitFaces(std::int64_t begin, std::int64_t end, const FaceVisit& visit) const {
+    const IntrinsicTriangulation& all = cover();
+    for (std::int64_t f = begin; f < end; ++f) visit(all.faces[f], all.length.data() + 3 * f);
+  }
   /// Mixed areas of points in their own stars: N values in length^2, positive only where the surface ends. There
   /// Mass::star uses them as masses. Size 0 with Mass::cover. Computed anew by each call, with as many threads as the
   /// build had.

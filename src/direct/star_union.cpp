@@ -47,10 +47,29 @@ const IntrinsicTriangulation& StarUnion::cover() const {
   return whole_;
 }
 
+void StarUnion::appendStar(int p, std::vector<std::array<int, 3>>& faces, std::vector<double>& length) const {
+  const PowerOfTwo unit(cloud_.exponent);
+  const std::size_t first_face = faces.size(), first_length = length.size();
+  cover_.appendFaces(p, faces, length);
+  for (std::size_t f = first_face; f < faces.size(); ++f)
+    for (int& corner : faces[f]) corner = cloud_.input_index[corner];
+  for (std::size_t i = first_length; i < length.size(); ++i) length[i] = unit.times(length[i]);
+}
+
+void StarUnion::visitFaces(std::int64_t begin, std::int64_t end, const FaceVisit& visit) const {
+  std::vector<std::array<int, 3>> faces;
+  std::vector<double> length;
+  for (auto p = static_cast<int>(begin); p < end; ++p) {
+    faces.clear();
+    length.clear();
+    appendStar(p, faces, length);
+    for (std::size_t f = 0; f < faces.size(); ++f) visit(faces[f], length.data() + 3 * f);
+  }
+}
+
 bool StarUnion::appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                                 std::vector<double>& length) const {
-  const PowerOfTwo unit(cloud_.exponent), to_ranked(-cloud_.exponent);
-  const std::size_t first_face = faces.size(), first_length = length.size();
+  const PowerOfTwo to_ranked(-cloud_.exponent);
   std::vector<Ball> ranked = balls;
   for (Ball& ball : ranked) {
     for (double& coordinate : ball.center) coordinate = to_ranked.times(coordinate);
@@ -60,10 +79,7 @@ bool StarUnion::appendFacesNear(const std::vector<Ball>& balls, std::vector<std:
     const Progress silent;
     boxes_.emplace(length_.points, Workers(threads_, silent));
   });
-  boxes_->visitBalls(ranked, [&](int p) { cover_.appendFaces(p, faces, length); });
-  for (std::size_t f = first_face; f < faces.size(); ++f)
-    for (int& corner : faces[f]) corner = cloud_.input_index[corner];
-  for (std::size_t i = first_length; i < length.size(); ++i) length[i] = unit.times(length[i]);
+  boxes_->visitBalls(ranked, [&](int p) { appendStar(p, faces, length); });
   return true;
 }
 

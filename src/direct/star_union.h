@@ -51,23 +51,11 @@ class StarUnion final : public CoverSource {
 
   /// The whole cover, made at the first call.
   const IntrinsicTriangulation& cover() const override;
+  std::int64_t parts() const override { return stars_.size(); }
+  void visitFaces(std::int64_t begin, std::int64_t end, const FaceVisit& visit) const override;
   VectorXd starAreas() const override;
   bool appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                        std::vector<double>& length) const override;
-
-  /// Calls visit(corners, lengths) for front and back of all triangles of all stars, as flips have left them: corners
-  /// by rank, lengths in the unit of the ranked points. The cover must have been kept.
-  template <class Visit>
-  void forEachFace(const Visit& visit) const {
-    std::vector<std::array<int, 3>> faces;
-    std::vector<double> length;
-    for (int p = 0; p < stars_.size(); ++p) {
-      faces.clear();
-      length.clear();
-      cover_.appendFaces(p, faces, length);
-      for (std::size_t f = 0; f < faces.size(); ++f) visit(faces[f], length.data() + 3 * f);
-    }
-  }
 
   /// Mean lengths of the sides of all triangles by component, in units of the ranked points.
   /// @param component see Laplacian::component
@@ -78,6 +66,9 @@ class StarUnion final : public CoverSource {
   std::size_t bytes() const { return cover_.bytes(); }
 
  private:
+  /// Appends the faces of a star, with the caller's indices and unit.
+  void appendStar(int p, std::vector<std::array<int, 3>>& faces, std::vector<double>& length) const;
+
   const Stars stars_;
   const Buffer<std::uint8_t> disagrees_;
   const RankedCloud cloud_;

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "base/cover_source.h"
 #include "base/parallel.h"
-#include "tufted/intrinsic_triangulation.h"
 
 namespace tufted {
 
@@ -24,19 +24,17 @@ struct DistinctFace {
 /// One copy of a face.
 /// @param corners,opposite in the same order, any
 DistinctFace distinctFace(const std::array<int, 3>& corners, const std::array<double, 3>& opposite);
-/// Face number `face` of a cover, as one copy.
-/// @param number new number of each vertex; empty: unchanged
-DistinctFace distinctFace(const IntrinsicTriangulation& cover, int face, const std::vector<int>& number = {});
 
 /// Sorts faces and merges equal ones.
 void mergeCopies(std::vector<DistinctFace>& faces);
 
 /// The distinct faces of a cover (front and back, and the copies that clouds find of each triangle, are one), sorted.
 /// @param number new number of each vertex, a permutation; empty: unchanged
-std::vector<DistinctFace> distinctFaces(const IntrinsicTriangulation& cover, const Workers& workers,
+std::vector<DistinctFace> distinctFaces(const CoverSource& cover, int vertices, const Workers& workers,
                                         const std::vector<int>& number = {});
 
-/// The exponent of a power of two near the mean of some lengths; 0 if none is positive or one is not finite.
-int unitOf(const std::vector<double>& lengths);
+/// The exponent of a power of two near the mean length; 0 if none is positive or one is not finite.
+int unitOf(const CoverSource& cover);
+int unitOf(const std::vector<DistinctFace>& faces);
 
 }  // namespace tufted

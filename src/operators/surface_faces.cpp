@@ -34,10 +34,10 @@ double squaredSides(const SurfaceFace& face) {
 
 }  // namespace
 
-SurfaceFaces surfaceFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers) {
+SurfaceFaces surfaceFaces(const CoverSource& cover, int vertices, double scale, const Workers& workers) {
   SurfaceFaces surface;
-  surface.exponent = unitOf(cover.length);
-  for (const DistinctFace& distinct : distinctFaces(cover, workers)) {
+  surface.exponent = unitOf(cover);
+  for (const DistinctFace& distinct : distinctFaces(cover, vertices, workers)) {
     SurfaceFace face;
     if (layOut(distinct, scale * distinct.copies, surface.exponent, face)) surface.faces.push_back(face);
   }

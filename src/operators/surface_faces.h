@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/cover_source.h"
 #include "base/parallel.h"
-#include "tufted/intrinsic_triangulation.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -27,9 +27,9 @@ struct SurfaceFaces {
   int exponent = 0;                ///< lengths are in units of 2^exponent of the cover's
 };
 
-/// Collects the faces of a cover.
+/// Collects the faces of a cover with `vertices` vertices.
 /// @param scale of L: 1/2 for meshes, 1/6 for clouds
-SurfaceFaces surfaceFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers);
+SurfaceFaces surfaceFaces(const CoverSource& cover, int vertices, double scale, const Workers& workers);
 
 /// The mean squared side of the faces of each part, in units of 2^(2 exponent); 0 without a face.
 /// @param part number of each point's part, in [0, parts); -1: none

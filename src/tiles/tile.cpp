@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <utility>
 
+#include "base/cover_source.h"
 #include "base/power_of_two.h"
 #include "base/sort_unique.h"
 #include "cover/geometry.h"
-#include "direct/star_union.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -132,19 +131,12 @@ void Tile::lackMore() {
 
 void Tile::addFaceRadii() {
   std::vector<double> radius(dependence_.size());
-  const auto add = [&](int cell, double r) { radius[cell] = std::max(radius[cell], r); };
-  if (const auto stars = std::dynamic_pointer_cast<const StarUnion>(result_.cover_source)) {
-    stars->forEachFace([&](const std::array<int, 3>& corners, const double* length) {
-      for (const int p : corners) add(cell_by_rank_[p], circumradius(length));
-    });
-  } else {
-    const IntrinsicTriangulation& cover = result_.cover();
-    const PowerOfTwo unit = scaling().toScaled();
-    for (std::size_t f = 0; f < cover.faces.size(); ++f) {
-      const double r = unit.times(circumradius(cover.length.data() + 3 * f));
-      for (const int i : cover.faces[f]) add(cell_of_[i], r);
-    }
-  }
+  const PowerOfTwo unit = scaling().toScaled();
+  const CoverSource& cover = *result_.cover_source;
+  cover.visitFaces(0, cover.parts(), [&](const std::array<int, 3>& corners, const double* length) {
+    const double r = unit.times(circumradius(length));
+    for (const int i : corners) radius[cell_of_[i]] = std::max(radius[cell_of_[i]], r);
+  });
   // An empty circle lies within its diameter of each corner.
   for (std::size_t i = 0; i < radius.size(); ++i) dependence_[i] += 2 * radius[i];
 }

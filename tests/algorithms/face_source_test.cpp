@@ -140,7 +140,7 @@ TEST(FaceSource, LiesAtItsPlaceOnPagesOfSlivers) {
     std::vector<SurfacePoint> sources;
     for (int face = 0; face < book.triangles.rows(); ++face)
       sources.push_back(SurfacePoint::inFace(book.points, book.triangles, face, randomWeights(random)));
-    const std::vector<PlaceInCover> places = placesInCover("test", laplacian.cover(), sources);
+    const std::vector<PlaceInCover> places = placesInCover("test", *laplacian.cover_source, sources);
     ASSERT_EQ(std::ssize(places), 2 * std::ssize(sources));  // front and back
     int on_page = 0;
     for (const auto& [source, face, point] : places) {

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "base/cover_source.h"
 #include "oracles/geodesics.h"
 #include "oracles/planar.h"
 #include "shapes/random.h"
@@ -272,6 +275,29 @@ TEST(Marching, TurnsWithTheMesh) {
   const VectorXd before = DistanceSolver(meshLaplacian(mesh.points, mesh.triangles)).query({40}),
                  after = DistanceSolver(meshLaplacian(mesh.points * turn.transpose(), mesh.triangles)).query({40});
   EXPECT_LE((after - before).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Marching, TakesTheFacesOfACloudFromItsStarsWithTheBitsOfTheCover) {
+  struct StarsOnly : CoverSource {
+    explicit StarsOnly(std::shared_ptr<const CoverSource> source) : source_(std::move(source)) {}
+    const IntrinsicTriangulation& cover() const override { throw std::logic_error("the cover is asked for"); }
+    std::int64_t parts() const override { return source_->parts(); }
+    void visitFaces(std::int64_t begin, std::int64_t end, const FaceVisit& visit) const override {
+      source_->visitFaces(begin, end, visit);
+    }
+    std::shared_ptr<const CoverSource> source_;
+  };
+  // More stars than one block has; the noise makes edges flip.
+  const shapes::Cloud cloud = shapes::withNoise(shapes::sphere(9000, shapes::Sampling::uniform, 101), 0.02, 101);
+  Laplacian laplacian = pointCloudLaplacian(cloud.points, cloudOptions(Preset::clean)), of_stars = laplacian;
+  ASSERT_GT(laplacian.report.flips, 100);
+  of_stars.cover_source = std::make_shared<StarsOnly>(laplacian.cover_source);
+  laplacian.setCover(IntrinsicTriangulation(laplacian.cover()));
+  for (const DistanceMethod method : {DistanceMethod::marching, DistanceMethod::heat}) {
+    const DistanceOptions options = {.method = method};
+    EXPECT_EQ(DistanceSolver(of_stars, options).query({3, 4000}), DistanceSolver(laplacian, options).query({3, 4000}));
+  }
+  EXPECT_EQ(segments(of_stars).labels, segments(laplacian).labels);
 }
 
 TEST(Marching, NamesWhatACallerGotWrongAndStopsWhenTold) {
