@@ -135,26 +135,6 @@ ImageEdges imageEdges(const Cloud& image) {
   return edges;
 }
 
-bool jumpsBetween(const Cloud& image, int a, int b) {
-  constexpr double jump = 1.05;
-  const double steepest = std::cos(5 * std::numbers::pi / 180);
-  const int columns = b % image.width - a % image.width, rows = b / image.width - a / image.width;
-  const int steps = std::max(std::abs(columns), std::abs(rows));
-  Eigen::RowVector3d last = image.points.row(a);
-  for (int i = 1; i <= steps; ++i) {
-    const auto across = static_cast<int>(std::lround(static_cast<double>(columns) * i / steps));
-    const auto down = static_cast<int>(std::lround(static_cast<double>(rows) * i / steps));
-    const Eigen::RowVector3d next = image.points.row(a + down * image.width + across);
-    if (!next.allFinite()) continue;
-    const Eigen::RowVector3d step = next - last, sight = (next.normalized() + last.normalized()).normalized();
-    const bool is_steep = std::abs(step.normalized().dot(sight)) > steepest;
-    const auto [near, far] = std::minmax(last.z(), next.z());
-    if (far > jump * near && is_steep) return true;
-    last = next;
-  }
-  return false;
-}
-
 std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& marks, int width, int pixels) {
   std::vector<std::uint8_t> wide(marks.size());
   forPairs(width, static_cast<int>(marks.size()) / width, pixels, [&](int i, int j) {

@@ -164,27 +164,6 @@ TEST(Scanners, AJumpIsWhereTheScannerSeesPastAnEdge) {
   EXPECT_TRUE(crossesJump(east_wall, box_front));
 }
 
-TEST(Scanners, AnImageJumpsWhereNoSlantExplainsIt) {
-  // The image is one row of pixels with these depths; 0: missing.
-  const auto jumps = [](const std::vector<double>& depths) {
-    Cloud image;
-    image.width = static_cast<int>(depths.size());
-    image.height = 1;
-    image.points.resize(image.width, 3);
-    for (int i = 0; i < image.width; ++i)
-      image.points.row(i) = Eigen::RowVector3d(i / 525.0, 0, 1) * (depths[i] > 0 ? depths[i] : std::nan(""));
-    const bool there = jumpsBetween(image, 0, image.width - 1);
-    EXPECT_EQ(there, jumpsBetween(image, image.width - 1, 0));
-    return there;
-  };
-  EXPECT_FALSE(jumps({1, 1.02, 1.04, 1.06, 1.08}));  // a surface seen at 5.5 degrees
-  EXPECT_TRUE(jumps({1, 1, 1, 1.08, 1.08}));
-  EXPECT_FALSE(jumps({1, 0, 0, 0, 1.08}));  // missing pixels may be a slanted surface
-  EXPECT_TRUE(jumps({1, 0, 0, 0, 1.1}));    // too steep for a surface
-  EXPECT_TRUE(jumps({1, 1, 0.5, 1, 1}));    // a body in front
-  EXPECT_FALSE(jumps({1}));
-}
-
 TEST(Scanners, DepthCameraIsQuantisedAndOrganized) {
   const DepthCameraOptions options{.width = 160, .height = 120, .depth_step = 0.004};
   const Cloud cloud = depthCamera(options);

@@ -159,13 +159,6 @@ ScanTruth scanTruth(const Cloud& scan, bool goes_round);
 /// @param a,b points in the scanner's frame, less than 180 degrees apart
 bool crossesJump(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-/// Whether a depth image jumps between two of its pixels: on the straight line between them there is a step of more
-/// than a twentieth of the depth, between adjacent pixels or across missing ones, that is too steep for a surface, less
-/// than 5 degrees from the line of sight.
-/// @param image organized, seen from the origin along z
-/// @param a,b indices of finite points
-bool jumpsBetween(const Cloud& image, int a, int b);
-
 struct DepthCameraOptions {
   int width = 640, height = 480;
   double depth_step = 0.002;  ///< depth is rounded to multiples of this, m; 0: not rounded
