@@ -196,16 +196,6 @@ TEST(Distance, ScalesAndMovesWithTheCloud) {
   }
 }
 
-TEST(Distance, OnAnyNumberOfThreadsGivesTheSameBits) {
-  const Laplacian laplacian = pointCloudLaplacian(shapes::square(20000).points);
-  for (const DistanceMethod method : {DistanceMethod::marching, DistanceMethod::heat}) {
-    const auto distanceOn = [&](int threads) {
-      return DistanceSolver(laplacian, {.method = method, .solver = {.threads = threads}}).query({3, 500});
-    };
-    EXPECT_EQ(distanceOn(1), distanceOn(3));
-  }
-}
-
 /// A strip of `squares` in three rows, its vertices moved at random: 4 (squares + 1) of them.
 shapes::Mesh roughStrip(int squares) {
   shapes::Mesh mesh;

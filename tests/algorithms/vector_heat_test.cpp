@@ -117,28 +117,6 @@ TEST(Transport, ByMultigridIsTheSame) {
   EXPECT_LE((found - same).rowwise().norm().maxCoeff(), 1e-4);
 }
 
-TEST(Transport, HasTheSameBitsForAnyNumberOfThreads) {
-  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(2000).points);
-  const Points vector = rows({{1, 2, 3}});
-  const Points one = TransportSolver(laplacian, {.solver = {.threads = 1}}).query({3}, vector);
-  EXPECT_EQ(one, TransportSolver(laplacian, {.solver = {.threads = 5}}).query({3}, vector));
-}
-
-TEST(VectorHeat, ScalesWithTheUnit) {
-  const Points points = shapes::torus(800).points;
-  const auto solve = [&](double scale) {
-    const Laplacian laplacian = pointCloudLaplacian(points * scale);
-    Eigen::MatrixXd all(800, 6);
-    all << TransportSolver(laplacian).query({3}, rows({{1, 2, 3}})),
-        ExtensionSolver(laplacian).query({1, 2}, Eigen::Vector2d(1, 2)),
-        LogMapSolver(laplacian).query(3).coordinates / scale;
-    return all;
-  };
-  const Eigen::MatrixXd expected = solve(1);
-  for (const int exponent : {-400, 400})
-    EXPECT_LE((solve(std::ldexp(1.0, exponent)) - expected).cwiseAbs().maxCoeff(), 1e-9) << exponent;
-}
-
 TEST(Extension, StaysWithinTheValuesAndIsThatOfTheNearest) {
   const Points points = shapes::sphere(4000).points;
   const Laplacian laplacian = pointCloudLaplacian(points);
