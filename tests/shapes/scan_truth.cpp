@@ -1,10 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdlib>
-#include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -23,28 +19,6 @@ class ScanGrid {
       for (int column = 0; column + 1 < scan_.width + (goes_round_ ? 1 : 0); ++column) sum += cellArea(row, column);
     }
     return sum;
-  }
-
-  int surfaces() const {
-    std::vector<int> parent(scan_.labels.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&parent](int p) {
-      while (parent[p] != p) p = parent[p] = parent[parent[p]];
-      return p;
-    };
-    int count = static_cast<int>(parent.size());
-    const auto join = [&](int a, int b) {
-      if (b < 0 || scan_.labels[a] != scan_.labels[b] || root(a) == root(b)) return;
-      parent[root(a)] = root(b);
-      --count;
-    };
-    for (int row = 0; row < scan_.height; ++row) {
-      for (int column = 0; column < scan_.width; ++column) {
-        join(ray(row, column), ray(row, column + 1));
-        join(ray(row, column), ray(row + 1, column));
-      }
-    }
-    return count;
   }
 
   bool isInner(int row, int column) const {
@@ -93,7 +67,7 @@ ScanTruth scanTruth(const Cloud& scan, bool goes_round) {
     throw std::invalid_argument("scanTruth: the scan must be organized, labelled and finite");
   }
   const ScanGrid grid(scan, goes_round);
-  ScanTruth truth{.area = grid.area(), .surfaces = grid.surfaces(), .inner = {}};
+  ScanTruth truth{.area = grid.area(), .inner = {}};
   for (int row = 0; row < scan.height; ++row) {
     for (int column = 0; column < scan.width; ++column) truth.inner.push_back(grid.isInner(row, column) ? 1 : 0);
   }

@@ -147,7 +147,6 @@ Cloud lidar(const LidarOptions& options = {}, std::uint64_t seed = 1);
 /// Facts about a scan without noise, for judging a noisy scan with the same rays.
 struct ScanTruth {
   double area = 0;                  ///< area of triangles between neighbouring rays that hit one surface
-  int surfaces = 0;                 ///< pieces of surfaces, connected by neighbouring rays of a row or column
   std::vector<std::uint8_t> inner;  ///< N; 1 if a ray and the eight around it hit one surface
 };
 /// @param scan organized, labelled, all points finite
