@@ -101,7 +101,6 @@ if(TUFTED_SANITIZE STREQUAL "address")  # what threads do is looked at by the ot
        Interpolation/EachKind.IsQueriedByThreadsSideBySide/biharmonic
        Invariance.AnyNumberOfThreadsGivesTheSameBits
        Rank.OfCrowdsAndCopiesIsTheSameOnAnyNumberOfThreads
-       ScanStructure.PermutedOrOnMoreThreadsGivesTheSameBits
-       StarAreas.AreNoMoreThanTwentyTimesTheTrianglesOfTheStar)
+       ScanStructure.PermutedOrOnMoreThreadsGivesTheSameBits)
 endif()
 string(JOIN : slow_tests ${slow_tests})
