@@ -13,12 +13,10 @@ set(slow_tests
     BoundedWeights.HoldTheirConditionsOnCloudsAndBadMeshes
     CloudBuild.FromStarsEqualsTheWholeCover
     Curvature.HasPerpendicularDirectionsAlongTheCircles
-    Curvature.HasTheSameBitsForAnyNumberOfThreads
     Curvature.IsRightNextToARim
     Curvature.IsWithinTwoPercentAndFallsWithTheSpacing
     Curvature.OfAPlaneIsZero
     Curvature.OfNoisyShapesComesFromWiderWindows
-    Curvature.ScalesWithTheUnit
     Curvature.TurnsWithTheNormal
     Deformation.BendsAlikeOnOtherTriangles
     Deformation.ByARigidMotionIsThatMotion
@@ -36,8 +34,8 @@ set(slow_tests
     Distance.InWindowsOfHeatIsThatOfTheWhole
     Distance.IsFiniteAndMonotoneAtAHundredThousandEdges
     Distance.ScalesAndMovesWithTheCloud
+    EveryAlgorithm.DoesNotDependOnTheUnit
     EveryReport.HasMethodIterationsResidualAndSeconds
-    Gradients.HaveTheSameBitsOnAnyNumberOfThreadsAndInAnyUnit
     Gradients.OfCoordinatesAreTheAxesInThePlanes
     Gradients.OnASphereFallWithTheSpacingAndWithNoise
     Harmonic.StaysWithinItsPinsWhateverTheSurface
@@ -95,17 +93,14 @@ set(slow_tests
     WaveKernelSignature.OfAHomogeneousSurfaceIsOneOverItsArea)
 if(TUFTED_SANITIZE STREQUAL "address")  # what threads do is looked at by the other one
   list(APPEND slow_tests
-       Agreement.IsThatOfEveryStarWithEachOfItsLinkVertices
-       BoundedWeights.DoNotDependOnUnitOrThreads
        CloudBuild.IsTheSameInManyBlocks
        CloudBuild.IsTheSameOnNoise
        Denoise.HasTheSameBitsForAnyNumberOfThreads
-       Distance.OnAnyNumberOfThreadsGivesTheSameBits
+       EveryAlgorithm.HasTheSameBitsOnAnyNumberOfThreads
        Flips.OfSeveralBlocksHaveTheSameBitsOnAnyThreads
        Interpolation/EachKind.IsQueriedByThreadsSideBySide/biharmonic
        Invariance.AnyNumberOfThreadsGivesTheSameBits
        Rank.OfCrowdsAndCopiesIsTheSameOnAnyNumberOfThreads
-       ScanStructure.PermutedOrOnMoreThreadsGivesTheSameBits
-       StarAreas.AreNoMoreThanTwentyTimesTheTrianglesOfTheStar)
+       ScanStructure.PermutedOrOnMoreThreadsGivesTheSameBits)
 endif()
 string(JOIN : slow_tests ${slow_tests})

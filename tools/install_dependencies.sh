@@ -25,7 +25,7 @@ pcl_packages=(libpcl-dev)
 python_packages=(python3 python3-dev pybind11-dev python3-numpy python3-scipy python3-pip python3-venv)
 other_packages=(
   help2man  # the manual pages of the command
-  libgtest-dev libgmock-dev libspectra-dev libbenchmark-dev libnanoflann-dev  # tests and benchmark
+  libgtest-dev libgmock-dev libspectra-dev libbenchmark-dev  # tests and benchmark
 )
 check_packages=(clang clang-format-14 doxygen python3-pytest)
 

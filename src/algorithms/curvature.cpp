@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "algorithms/check_frames.h"
+#include "algorithms/check_positions.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
 #include "base/symmetric_eigen.h"

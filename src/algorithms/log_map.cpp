@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/check_frames.h"
+#include "algorithms/check_positions.h"
 #include "algorithms/connection.h"
 #include "algorithms/heat_sources.h"
 #include "algorithms/memory_limit.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/check_frames.h"
+#include "algorithms/check_positions.h"
 #include "algorithms/connected.h"
 #include "algorithms/edge_contraction.h"
 #include "algorithms/fine_normals.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "algorithms/check_frames.h"
+#include "algorithms/check_positions.h"
 #include "algorithms/clusters.h"
 #include "algorithms/connected.h"
 #include "algorithms/crease_parts.h"

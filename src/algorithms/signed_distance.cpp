@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "algorithms/check_frames.h"
+#include "algorithms/check_positions.h"
 #include "algorithms/connected.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/memory_limit.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/check_frames.h"
+#include "algorithms/check_positions.h"
 #include "algorithms/growing_surface.h"
 #include "algorithms/orient_triangles.h"
 #include "algorithms/triangle_candidates.h"

@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "algorithms/check_frames.h"
+#include "algorithms/check_positions.h"
 #include "algorithms/heat_sources.h"
 #include "algorithms/memory_limit.h"
 #include "algorithms/vector_heat.h"

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/check_positions.h"
 #include "algorithms/connection.h"
 #include "algorithms/greater.h"
 #include "algorithms/heat_time.h"
 #include "base/number_text.h"
 #include "base/stage_clock.h"
-#include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -28,20 +28,6 @@ constexpr double heat_tolerance = 1e-12;
 constexpr double scalar_share = 0.2;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-void checkOptions(const std::string& function, const Laplacian& laplacian, const VectorHeatOptions& options) {
-  checkSizes(function, laplacian);
-  checkHeatTime(function, options.time_step);
-  const auto n = std::ssize(laplacian.status);
-  if (laplacian.positions.rows() != n)
-    throw InvalidInput(function + ": Laplacian::positions has " + std::to_string(laplacian.positions.rows()) +
-                       " rows, must have " + std::to_string(n) + ", one per point");
-  for (int i = 0; i < n; ++i) {
-    if (laplacian.status[i] == PointStatus::active && !laplacian.positions.row(i).allFinite())
-      throw InvalidInput(function + ": the position of point " + std::to_string(i) +
-                         " is not finite, must be: the Laplacian has it active");
-  }
-}
 
 /// The root mean squared distance of neighbours in L on each component; 1 if there are none.
 VectorXd spacingsOf(const SparseMatrix& L, const Points& positions, const Components& components) {
@@ -78,7 +64,8 @@ SparseMatrix withMass(SparseMatrix sum, const VectorXd& mass, int width) {
 
 FieldHeat::FieldHeat(const char* function, const Laplacian& laplacian, const Frames* frames,
                      const VectorHeatOptions& options, std::size_t memory_limit) {
-  checkOptions(function, laplacian, options);
+  checkPositions(function, laplacian);
+  checkHeatTime(function, options.time_step);
   const Stopwatch watch;
   L_ = laplacian.L;
   components_ = findComponents(laplacian);

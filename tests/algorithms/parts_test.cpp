@@ -13,6 +13,7 @@ namespace {
 
 using Eigen::MatrixXd;
 using support::Algorithm;
+using support::difference;
 
 /// A fine shape, and far away a coarse one with other edges, another noise and other areas. They have at most 5,000
 /// points together: beyond, marching cuts triangles once and not twice.
@@ -37,20 +38,6 @@ std::vector<Scene> scenes() {
           {"huge", shapes::ellipsoid(1500).points, placed(shapes::sphere(2000).points, 1e6)},
           {"noisy", fine, placed(noisy.points, 10)},
           {"noisy, of more points", fine, placed(shapes::withNoise(shapes::sphere(3400), 0.03, 4).points, 3)}};
-}
-
-/// The greatest difference between finite values of the first rows, by the greatest value.
-double difference(const MatrixXd& found, const MatrixXd& alone) {
-  const MatrixXd part = found.topRows(alone.rows());
-  double most = 0, size = 0;
-  for (Eigen::Index i = 0; i < alone.size(); ++i) {
-    const double a = alone.data()[i], b = part.data()[i];
-    if (std::isfinite(a) != std::isfinite(b)) return INFINITY;
-    if (!std::isfinite(a)) continue;
-    most = std::max(most, std::abs(a - b));
-    size = std::max(size, std::abs(a));
-  }
-  return most / size;
 }
 
 /// Where there is no mollification, whose length is one for the whole cloud.

@@ -142,17 +142,6 @@ TEST(Path, OfOnePointAndOfCoincidentOnesIsThatPoint) {
   }
 }
 
-TEST(Path, ScalesWithThePoints) {
-  const shapes::Mesh mesh = shapes::cubeMesh(5, shapes::Quality::good);
-  const SurfacePath before = PathSolver(meshLaplacian(mesh.points, mesh.triangles)).query(0, 60);
-  for (const int exponent : {400, -400}) {
-    const double scale = std::ldexp(1.0, exponent);
-    const SurfacePath after = PathSolver(meshLaplacian(scale * mesh.points, mesh.triangles)).query(0, 60);
-    EXPECT_EQ(after.length, scale * before.length) << exponent;
-    EXPECT_EQ(after.points, scale * before.points) << exponent;
-  }
-}
-
 TEST(Path, IsNoLongerThanDistancesOnAnyShape) {
   for (const shapes::Mesh& mesh : shapes::allMeshes()) {
     const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);

@@ -163,13 +163,6 @@ TEST(Smoothing, InSeveralStepsIsOneStepAfterTheOther) {
   EXPECT_LE((smooth(laplacian, points, {.iterations = 3}) - one_by_one).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-TEST(Smoothing, OnAnyNumberOfThreadsGivesTheSameBits) {
-  const Points points = shapes::torus(2000).points;
-  const Laplacian laplacian = pointCloudLaplacian(points);
-  EXPECT_EQ(smooth(laplacian, points, {.solver = {.threads = 1}}),
-            smooth(laplacian, points, {.solver = {.threads = 3}}));
-}
-
 TEST(Smoothing, LeavesFixedPointsWhereTheyAre) {
   // With its rim held, a flat disk stays flat and a bump in it goes down, at last to the plane.
   const Points flat = shapes::disk(2000, shapes::Sampling::jittered, shapes::Rim::included).points;

@@ -151,13 +151,6 @@ TEST(SurfaceTriangles, DependOnNormalsForTheirOrientationAlone) {
   EXPECT_LT(area(down), 0);
 }
 
-TEST(SurfaceTriangles, ScaleWithTheUnit) {
-  const Points points = shapes::withNoise(shapes::torus(1000), 0.005).points;
-  const Triangles expected = surfaceTriangles(pointCloudLaplacian(points));
-  for (const int exponent : {-400, 400})
-    EXPECT_EQ(surfaceTriangles(pointCloudLaplacian(points * std::ldexp(1.0, exponent))), expected) << exponent;
-}
-
 TEST(SurfaceTriangles, OfOddPointsAreDefined) {
   Points points = shapes::sphere(500).points;
   points.row(3).setConstant(NAN);

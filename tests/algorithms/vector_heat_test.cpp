@@ -9,6 +9,7 @@
 #include <string>
 
 #include "shapes/shapes.h"
+#include "support/odd_cloud.h"
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
@@ -117,28 +118,6 @@ TEST(Transport, ByMultigridIsTheSame) {
   EXPECT_LE((found - same).rowwise().norm().maxCoeff(), 1e-4);
 }
 
-TEST(Transport, HasTheSameBitsForAnyNumberOfThreads) {
-  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(2000).points);
-  const Points vector = rows({{1, 2, 3}});
-  const Points one = TransportSolver(laplacian, {.solver = {.threads = 1}}).query({3}, vector);
-  EXPECT_EQ(one, TransportSolver(laplacian, {.solver = {.threads = 5}}).query({3}, vector));
-}
-
-TEST(VectorHeat, ScalesWithTheUnit) {
-  const Points points = shapes::torus(800).points;
-  const auto solve = [&](double scale) {
-    const Laplacian laplacian = pointCloudLaplacian(points * scale);
-    Eigen::MatrixXd all(800, 6);
-    all << TransportSolver(laplacian).query({3}, rows({{1, 2, 3}})),
-        ExtensionSolver(laplacian).query({1, 2}, Eigen::Vector2d(1, 2)),
-        LogMapSolver(laplacian).query(3).coordinates / scale;
-    return all;
-  };
-  const Eigen::MatrixXd expected = solve(1);
-  for (const int exponent : {-400, 400})
-    EXPECT_LE((solve(std::ldexp(1.0, exponent)) - expected).cwiseAbs().maxCoeff(), 1e-9) << exponent;
-}
-
 TEST(Extension, StaysWithinTheValuesAndIsThatOfTheNearest) {
   const Points points = shapes::sphere(4000).points;
   const Laplacian laplacian = pointCloudLaplacian(points);
@@ -227,28 +206,18 @@ TEST(LogMap, OfAMesh) {
 }
 
 TEST(VectorHeat, OfOddPointsIsDefined) {
-  Points points(1000, 3);
-  points << shapes::sphere(500).points, shapes::sphere(500).points.rowwise() + Eigen::RowVector3d(10, 0, 0);
-  points.row(3).setConstant(NAN);
-  points.row(9) = points.row(1);
-  points.row(12) << 50, 50, 50;
-  const Laplacian laplacian = pointCloudLaplacian(points);
-  const Points vectors = TransportSolver(laplacian).query({1, 12}, rows({{1, 2, 3}, {1, 1, 1}}));
-  const Eigen::MatrixXd values = ExtensionSolver(laplacian).query({1, 3}, Eigen::Vector2d(1, 2));
-  const Eigen::MatrixXd map = LogMapSolver(laplacian).query(9).coordinates;
+  const Laplacian laplacian = pointCloudLaplacian(support::oddCloud());
+  const Points vectors = TransportSolver(laplacian).query({1, 2003}, rows({{1, 2, 3}, {1, 1, 1}}));
+  const Eigen::MatrixXd values = ExtensionSolver(laplacian).query({1, 2002}, Eigen::Vector2d(1, 2));
+  const Eigen::MatrixXd map = LogMapSolver(laplacian).query(2000).coordinates;
   EXPECT_TRUE(vectors.allFinite());
-  for (const int i : {3, 12, 700}) {
+  for (const int i : {2002, 2003, 1700}) {
     EXPECT_TRUE(vectors.row(i).isZero(0)) << i;
     EXPECT_TRUE(std::isnan(values(i, 0))) << i;
     EXPECT_TRUE(map.row(i).hasNaN()) << i;
   }
-  EXPECT_EQ(vectors.row(9), vectors.row(1));
-  EXPECT_EQ(values(9, 0), values(1, 0));
-  EXPECT_TRUE(map.row(9).isZero(0) && map.row(1).isZero(0));
-  for (int i = 0; i < 500; ++i) {
-    const bool is_defined = i != 3 && i != 12;
-    EXPECT_EQ(std::isfinite(values(i, 0)) && map.row(i).allFinite(), is_defined) << i;
-  }
+  EXPECT_TRUE(map.row(2000).isZero(0) && map.row(5).isZero(0));
+  EXPECT_TRUE(values.topRows(1000).allFinite() && map.topRows(1000).allFinite());
   for (const int n : {3, 4, 6}) {
     const Laplacian few = pointCloudLaplacian(shapes::sphere(n).points);
     EXPECT_TRUE(LogMapSolver(few).query(0).coordinates.allFinite());

@@ -101,17 +101,6 @@ TEST(BoundedWeights, AreAsSymmetricAsTheirHandles) {
   for (int i = 0; i < weights.rows(); ++i) EXPECT_NEAR(weights(i, 0), weights(opposite(i), 1), 1e-8) << i;
 }
 
-TEST(BoundedWeights, DoNotDependOnUnitOrThreads) {
-  const Points points = shapes::torus(600).points;
-  const std::vector<std::vector<int>> handles = {{0}, {50}, {99}};
-  const MatrixXd weights = boundedBiharmonicWeights(pointCloudLaplacian(points), handles);
-  for (const int exponent : {300, -300})
-    EXPECT_EQ(boundedBiharmonicWeights(pointCloudLaplacian(std::ldexp(1, exponent) * points), handles), weights);
-  for (const int threads : {1, 3})
-    EXPECT_EQ(boundedBiharmonicWeights(pointCloudLaplacian(points), handles, {.solver = {.threads = threads}}),
-              weights);
-}
-
 TEST(BoundedWeights, OfOddCloudsAreDefined) {
   const Laplacian laplacian = pointCloudLaplacian(support::oddDisk());
   WeightReport report;

@@ -1,6 +1,7 @@
 // denoise() of depth images: along the rays, as a build moves points.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -119,6 +120,19 @@ TEST(DenoisedImage, KeepsAReliefWhereNoiseIsWhite) {
   }
 }
 
+// Noise that goes on from pixel to pixel is smoothed as widely as that of cameras.
+TEST(DenoisedImage, LosesNoiseThatGoesOnAlongRowsOrColumns) {
+  const Relief wall(0, 1);
+  const ScanStructure structure = imageStructure(Relief::columns, Relief::rows);
+  for (const int next : {1, Relief::columns}) {
+    Points measured = wall.measured;
+    for (int i = 0; i + next < measured.rows(); ++i)
+      measured.row(i) *= 1 / (1 + 0.5 * (1 / wall.measured(i + next, 2) - 1) * measured(i, 2));
+    const Points moved = denoise(measured, {.structure = &structure}).positions;
+    EXPECT_LT(rootMeanSquare(moved, wall.surface), 0.05 * rootMeanSquare(measured, wall.surface)) << next;
+  }
+}
+
 TEST(DenoisedImage, OfACoarseDepthWithoutNoiseLiesOnTheSurface) {
   // Steps are 16 columns apart, so that most rows of five pixels are exact.
   const ScanStructure structure = imageStructure(width, height);
@@ -169,6 +183,24 @@ TEST(DenoisedImage, LeavesPointsWithoutASurfaceWhereTheyAre) {
   EXPECT_EQ(done.report.coincident, 1);
   EXPECT_EQ(done.report.unplaced, 1);
   EXPECT_EQ(done.report.outliers, 1);
+}
+
+TEST(DenoisedImage, OfAnySizeLosesNoise) {
+  const double noise = 2e-3;
+  for (const auto& [columns, rows] : {std::pair{70, 61}, {61, 58}, {13, 90}, {64, 20}, {9, 7}, {1, 30}, {57, 1}}) {
+    shapes::Random random(columns);
+    Points surface(columns * rows, 3), points = surface;
+    for (int i = 0; i < points.rows(); ++i) {
+      const Eigen::RowVector3d ray((i % columns - columns / 2) / 100.0, (i / columns - rows / 2) / 100.0, 1);
+      surface.row(i) = ray / (1 - 0.3 * ray.x() + 0.2 * ray.y());
+      points.row(i) = ray / (1 / surface(i, 2) + noise * random.normal());
+    }
+    const ScanStructure structure = imageStructure(columns, rows);
+    const double share = std::min(columns, rows) < 13 ? 1 : 0.4;  // too few pixels have a window
+    EXPECT_LE(rootMeanSquare(denoise(points, {.structure = &structure}).positions, surface),
+              share * rootMeanSquare(points, surface))
+        << columns << " x " << rows;
+  }
 }
 
 TEST(DenoisedImage, OfNoPointsOrOneIsDefined) {

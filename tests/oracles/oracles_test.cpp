@@ -107,23 +107,6 @@ TEST(Cotan, RepeatedTrianglesWithoutAreaAreSkipped) {
   EXPECT_NEAR(a.M.sum(), 1, 1e-12);
 }
 
-TEST(DelaunayStar, OfASquareAndItsNeighbours) {
-  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> points(6, 2);
-  points << 1, 0, 0, 1, -1, 0, 0, -1, 3, 3, 1, 0;
-  const PlanarStar star = delaunayStarOracle(points);
-  EXPECT_TRUE(star.closed);
-  ASSERT_EQ(star.triangles.size(), 4u);
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(star.triangles[i][1], star.triangles[(i + 1) % 4][0]);
-    EXPECT_EQ((star.triangles[i][0] + 1) % 4, star.triangles[i][1]);
-  }
-  const PlanarStar open = delaunayStarOracle(points.topRows(3));
-  EXPECT_FALSE(open.closed);
-  ASSERT_EQ(open.triangles.size(), 2u);
-  EXPECT_EQ(open.triangles[0], (std::array<int, 2>{0, 1}));
-  EXPECT_EQ(open.triangles[1], (std::array<int, 2>{1, 2}));
-}
-
 TEST(DelaunayStar, HasEmptyCircles) {
   shapes::Random random(4);
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> points(200, 2);
@@ -143,12 +126,6 @@ TEST(DelaunayStar, HasEmptyCircles) {
       EXPECT_GE((points.row(k).transpose() - centre).norm(), centre.norm() * (1 - 1e-9));
     }
   }
-}
-
-TEST(DelaunayStar, OfCollinearPointsIsEmpty) {
-  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> points(2, 2);
-  points << 1, 1, 2, 2;
-  EXPECT_TRUE(delaunayStarOracle(points).triangles.empty());
 }
 
 TEST(ExactDistances, AreStraightOnAPlane) {

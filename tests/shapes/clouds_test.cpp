@@ -96,29 +96,11 @@ TEST_P(EveryCloud, HasConsistentSizes) {
   EXPECT_TRUE(std::is_sorted(cloud().eigenvalues.begin(), cloud().eigenvalues.end()));
 }
 
-TEST_P(EveryCloud, IsReproducible) {
-  static const std::vector<Cloud> again = allClouds(1000);
-  EXPECT_EQ(again[GetParam()].name, cloud().name);
-  EXPECT_TRUE(same(again[GetParam()].points, cloud().points));
-  EXPECT_TRUE(same(again[GetParam()].normals, cloud().normals));
-  EXPECT_EQ(again[GetParam()].labels, cloud().labels);
-}
-
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryCloud, testing::ValuesIn(indicesOf([](const Cloud&) { return true; })), nameOf);
 INSTANTIATE_TEST_SUITE_P(Shapes, EverySurface, testing::ValuesIn(indicesOf([](const Cloud& cloud) {
                            return cloud.noise == 0 && cloud.outliers == 0 && cloud.shape != "room";
                          })),
                          nameOf);
-
-TEST(Clouds, NamesAreUnique) {
-  std::set<std::string> names;
-  for (const Cloud& cloud : clouds()) EXPECT_TRUE(names.insert(cloud.name).second) << cloud.name;
-}
-
-TEST(Clouds, SeedsGiveOtherPoints) {
-  EXPECT_TRUE(same(sphere(500, Sampling::uniform, 5).points, sphere(500, Sampling::uniform, 5).points));
-  EXPECT_FALSE(same(sphere(500, Sampling::uniform, 5).points, sphere(500, Sampling::uniform, 6).points));
-}
 
 TEST(Clouds, CountIsExactExceptForLattices) {
   for (const Sampling sampling : {Sampling::uniform, Sampling::jittered, Sampling::nonuniform, Sampling::scanLines(10),
@@ -258,11 +240,6 @@ TEST(Clouds, FarOutliersFillTheEnlargedBox) {
   EXPECT_LE(far.abs().maxCoeff(), 1.5);
   EXPECT_GT(far.colwise().maxCoeff().minCoeff(), 1.4);
   EXPECT_LT(far.colwise().minCoeff().maxCoeff(), -1.4);
-}
-
-TEST(Clouds, NoiseHasItsDeviation) {
-  const Cloud clean = sphere(20000), noisy = withNoise(clean, 0.01);
-  EXPECT_NEAR((noisy.points - clean.points).norm() / std::sqrt(60000.0), 0.01, 2e-4);
 }
 
 TEST(Spectra, MatchKnownValues) {

@@ -47,11 +47,6 @@ TEST_P(EveryMesh, UsesValidIndices) {
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryMesh, testing::Range(0, static_cast<int>(meshes().size())),
                          [](const auto& param_info) { return meshes()[param_info.param].name; });
 
-TEST(Meshes, NamesAreUnique) {
-  std::set<std::string> names;
-  for (const Mesh& mesh : meshes()) EXPECT_TRUE(names.insert(mesh.name).second) << mesh.name;
-}
-
 TEST(Meshes, CurvedAreasConverge) {
   const Mesh strip = moebius(20), bottle = kleinBottle(100), ball = icosphere(5);
   for (const Mesh* mesh : {&strip, &bottle, &ball}) {

@@ -1,10 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdlib>
-#include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -23,28 +19,6 @@ class ScanGrid {
       for (int column = 0; column + 1 < scan_.width + (goes_round_ ? 1 : 0); ++column) sum += cellArea(row, column);
     }
     return sum;
-  }
-
-  int surfaces() const {
-    std::vector<int> parent(scan_.labels.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&parent](int p) {
-      while (parent[p] != p) p = parent[p] = parent[parent[p]];
-      return p;
-    };
-    int count = static_cast<int>(parent.size());
-    const auto join = [&](int a, int b) {
-      if (b < 0 || scan_.labels[a] != scan_.labels[b] || root(a) == root(b)) return;
-      parent[root(a)] = root(b);
-      --count;
-    };
-    for (int row = 0; row < scan_.height; ++row) {
-      for (int column = 0; column < scan_.width; ++column) {
-        join(ray(row, column), ray(row, column + 1));
-        join(ray(row, column), ray(row + 1, column));
-      }
-    }
-    return count;
   }
 
   bool isInner(int row, int column) const {
@@ -93,7 +67,7 @@ ScanTruth scanTruth(const Cloud& scan, bool goes_round) {
     throw std::invalid_argument("scanTruth: the scan must be organized, labelled and finite");
   }
   const ScanGrid grid(scan, goes_round);
-  ScanTruth truth{.area = grid.area(), .surfaces = grid.surfaces(), .inner = {}};
+  ScanTruth truth{.area = grid.area(), .inner = {}};
   for (int row = 0; row < scan.height; ++row) {
     for (int column = 0; column < scan.width; ++column) truth.inner.push_back(grid.isInner(row, column) ? 1 : 0);
   }
@@ -133,26 +107,6 @@ ImageEdges imageEdges(const Cloud& image) {
     }
   });
   return edges;
-}
-
-bool jumpsBetween(const Cloud& image, int a, int b) {
-  constexpr double jump = 1.05;
-  const double steepest = std::cos(5 * std::numbers::pi / 180);
-  const int columns = b % image.width - a % image.width, rows = b / image.width - a / image.width;
-  const int steps = std::max(std::abs(columns), std::abs(rows));
-  Eigen::RowVector3d last = image.points.row(a);
-  for (int i = 1; i <= steps; ++i) {
-    const auto across = static_cast<int>(std::lround(static_cast<double>(columns) * i / steps));
-    const auto down = static_cast<int>(std::lround(static_cast<double>(rows) * i / steps));
-    const Eigen::RowVector3d next = image.points.row(a + down * image.width + across);
-    if (!next.allFinite()) continue;
-    const Eigen::RowVector3d step = next - last, sight = (next.normalized() + last.normalized()).normalized();
-    const bool is_steep = std::abs(step.normalized().dot(sight)) > steepest;
-    const auto [near, far] = std::minmax(last.z(), next.z());
-    if (far > jump * near && is_steep) return true;
-    last = next;
-  }
-  return false;
 }
 
 std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& marks, int width, int pixels) {

@@ -87,14 +87,6 @@ TEST(Scanners, LidarNoiseRunsAlongTheBeam) {
   EXPECT_NEAR(std::sqrt(sum / static_cast<double>(clean.points.rows())), 0.02, 1e-3);
 }
 
-TEST(Scanners, LidarAreaIsThatOfTheSurfacesSeen) {
-  // 16 rings see a band of the walls without what box and pole hide, and parts of floor and ceiling.
-  const double walls = 2 * (20 + 15) * 4;
-  const Cloud cloud = lidar({.rings = 16, .azimuth_step = 1});
-  EXPECT_GT(cloud.area, walls);
-  EXPECT_LT(cloud.area, walls + 2 * 20 * 15);
-}
-
 TEST(Scanners, LidarsOf32RingsLookUpToTheCeiling) {
   const Cloud cloud = lidar({.rings = 32, .azimuth_step = 1});
   const auto elevation = [&](int i) { return std::asin(cloud.points(i, 2) / cloud.points.row(i).norm()); };
@@ -122,14 +114,6 @@ TEST(ScanTruth, AreaIsThatOfTheTrianglesOnOneSurface) {
   EXPECT_DOUBLE_EQ(scanTruth(scan, false).area, 4);
   scan.labels[6] = 1;  // two cells now have two corners on each surface
   EXPECT_DOUBLE_EQ(scanTruth(scan, false).area, 2);
-}
-
-TEST(ScanTruth, SurfacesArePiecesOfOneLabel) {
-  Cloud scan = smallScan();
-  EXPECT_EQ(scanTruth(scan, false).surfaces, 1);
-  for (const int i : {1, 5, 9}) scan.labels[i] = 1;
-  EXPECT_EQ(scanTruth(scan, false).surfaces, 3);
-  EXPECT_EQ(scanTruth(scan, true).surfaces, 2);  // column 3 meets column 0
 }
 
 TEST(ScanTruth, InnerRaysHaveEightNeighboursOnTheirSurface) {
@@ -164,27 +148,6 @@ TEST(Scanners, AJumpIsWhereTheScannerSeesPastAnEdge) {
   EXPECT_TRUE(crossesJump(east_wall, box_front));
 }
 
-TEST(Scanners, AnImageJumpsWhereNoSlantExplainsIt) {
-  // The image is one row of pixels with these depths; 0: missing.
-  const auto jumps = [](const std::vector<double>& depths) {
-    Cloud image;
-    image.width = static_cast<int>(depths.size());
-    image.height = 1;
-    image.points.resize(image.width, 3);
-    for (int i = 0; i < image.width; ++i)
-      image.points.row(i) = Eigen::RowVector3d(i / 525.0, 0, 1) * (depths[i] > 0 ? depths[i] : std::nan(""));
-    const bool there = jumpsBetween(image, 0, image.width - 1);
-    EXPECT_EQ(there, jumpsBetween(image, image.width - 1, 0));
-    return there;
-  };
-  EXPECT_FALSE(jumps({1, 1.02, 1.04, 1.06, 1.08}));  // a surface seen at 5.5 degrees
-  EXPECT_TRUE(jumps({1, 1, 1, 1.08, 1.08}));
-  EXPECT_FALSE(jumps({1, 0, 0, 0, 1.08}));  // missing pixels may be a slanted surface
-  EXPECT_TRUE(jumps({1, 0, 0, 0, 1.1}));    // too steep for a surface
-  EXPECT_TRUE(jumps({1, 1, 0.5, 1, 1}));    // a body in front
-  EXPECT_FALSE(jumps({1}));
-}
-
 TEST(Scanners, DepthCameraIsQuantisedAndOrganized) {
   const DepthCameraOptions options{.width = 160, .height = 120, .depth_step = 0.004};
   const Cloud cloud = depthCamera(options);
@@ -208,13 +171,6 @@ TEST(Scanners, DepthCameraIsQuantisedAndOrganized) {
   EXPECT_GT(holes, 100);
   EXPECT_LT(holes, 160 * 120 / 3);
   EXPECT_GE(seen.size(), 4u);  // floor, two walls or more, box
-}
-
-TEST(Scanners, DepthCameraHasDepthJumps) {
-  const Cloud cloud = depthCamera({.width = 160, .height = 120});
-  int jumps = 0;
-  for (int i = 0; i + 1 < 160 * 120; ++i) jumps += std::abs(cloud.points(i + 1, 2) - cloud.points(i, 2)) > 0.5;
-  EXPECT_GT(jumps, 20);
 }
 
 }  // namespace

@@ -147,7 +147,6 @@ Cloud lidar(const LidarOptions& options = {}, std::uint64_t seed = 1);
 /// Facts about a scan without noise, for judging a noisy scan with the same rays.
 struct ScanTruth {
   double area = 0;                  ///< area of triangles between neighbouring rays that hit one surface
-  int surfaces = 0;                 ///< pieces of surfaces, connected by neighbouring rays of a row or column
   std::vector<std::uint8_t> inner;  ///< N; 1 if a ray and the eight around it hit one surface
 };
 /// @param scan organized, labelled, all points finite
@@ -158,13 +157,6 @@ ScanTruth scanTruth(const Cloud& scan, bool goes_round);
 /// another, not where two surfaces meet.
 /// @param a,b points in the scanner's frame, less than 180 degrees apart
 bool crossesJump(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
-
-/// Whether a depth image jumps between two of its pixels: on the straight line between them there is a step of more
-/// than a twentieth of the depth, between adjacent pixels or across missing ones, that is too steep for a surface, less
-/// than 5 degrees from the line of sight.
-/// @param image organized, seen from the origin along z
-/// @param a,b indices of finite points
-bool jumpsBetween(const Cloud& image, int a, int b);
 
 struct DepthCameraOptions {
   int width = 640, height = 480;

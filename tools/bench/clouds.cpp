@@ -3,13 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "base/stage_clock.h"
 #include "bench/costs.h"
 #include "bench/search_stage.h"
 #include "neighbors/morton.h"
 #include "shapes/shapes.h"
 #include "simd/kernels.h"
-#include "tufted/laplacian_builder.h"
+#include "tufted/laplacian.h"
 #ifdef TUFTED_BENCH_IO
 #include "tufted/io/read.h"
 #endif
@@ -18,15 +17,12 @@ namespace tufted::bench {
 namespace {
 
 constexpr int neighbor_count = 30;
-constexpr Eigen::Index largest_frame = 640 * 480;
 constexpr double noise = 0.005;  // standard deviation, in radii of the sphere
 
 struct CloudCase {
   std::string cloud;  ///< name of the cloud
   std::function<Points()> make;
   Preset preset = Preset::clean;
-  Gluing gluing = Gluing::star;
-  Delaunay delaunay = Delaunay::star;
   int threads = 1;
   bool portable = false;  ///< whether to use the kernels without AVX
 
@@ -35,7 +31,6 @@ struct CloudCase {
            (preset == Preset::clean  ? "clean"
             : preset == Preset::scan ? "scan"
                                      : "lidar") +
-           (delaunay == Delaunay::star ? "" : "/cgal") + (gluing == Gluing::star ? "" : "/vertex_pair") +
            (portable ? "/portable" : "") + "/" + threadsName(threads);
   }
 };
@@ -55,24 +50,6 @@ RankedCloud ranked(const Points& points) {
   return rankPoints(points, status, representative);
 }
 
-/// Builds frames alternately by pointCloudLaplacian() and by a LaplacianBuilder: `builder_frames_per_second` and
-/// `builder_per_whole`.
-void runFrames(benchmark::State& state, const Points& points, const CloudOptions& options, Costs& costs) {
-  constexpr int frames = 7;
-  LaplacianBuilder builder;
-  builder.pointCloud(points, options);
-  for (int i = 0; i < frames; ++i) {
-    Stopwatch watch;
-    pointCloudLaplacian(points, options);
-    costs.addSeconds("frame", watch.restart());
-    builder.pointCloud(points, options);
-    costs.addSeconds("builder_frame", watch.seconds());
-  }
-  const double seconds = costs.medianSeconds("builder_frame");
-  state.counters["builder_frames_per_second"] = 1 / seconds;
-  state.counters["builder_per_whole"] = seconds / costs.medianSeconds("frame");
-}
-
 /// One build per iteration, in CPU time on one thread, otherwise in wall-clock time. On one thread each build is
 /// followed by a search (not timed), so that both medians are from the same minutes: `whole_per_flann`. Points that are
 /// counted are finite and distinct. The cover is not kept; three more builds measure building it on demand:
@@ -81,8 +58,6 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
   const Points& points = pointsOf(c);
   CloudOptions options = cloudOptions(c.preset);
   options.neighbors = neighbor_count;
-  options.paper.gluing = c.gluing;
-  options.paper.delaunay = c.delaunay;
   options.threads = c.threads;
   options.keep_cover = false;
   chooseKernels(c.portable ? &portableKernels() : nullptr);
@@ -99,14 +74,11 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
       costs.addBuild(seconds, laplacian.report);
     }
     if (c.threads != 1) continue;
-    const SearchSeconds search = searchSeconds(cloud.points, neighbor_count);
-    costs.addSeconds("flann", search.flann);
-    costs.addSeconds("nanoflann", search.nanoflann);
+    costs.addSeconds("flann", searchSeconds(cloud.points, neighbor_count));
   }
   costs.publish(state);
   const double whole = costs.medianSeconds("whole");
   state.counters["frames_per_second"] = 1 / whole;
-  if (points.rows() <= largest_frame) runFrames(state, points, options, costs);
   if (c.threads != 1) return;
   state.counters["whole_per_flann"] = whole / costs.medianSeconds("flann");
   options.keep_cover = true;
@@ -153,16 +125,8 @@ void registerSpheres() {
     registerPresets({.cloud = counted("noisy_sphere", n),
                      .make = [n] { return shapes::withNoise(shapes::sphere(n), noise).points; }},
                     n);
-    sphere.gluing = Gluing::vertex_pair;
-    registerCloud(sphere, n);
-    sphere.gluing = Gluing::star;
     sphere.portable = true;
     registerCloud(sphere, n);
-    sphere.portable = false;
-#ifdef TUFTED_WITH_GPL
-    sphere.delaunay = Delaunay::cgal;
-    registerCloud(sphere, n);
-#endif
   }
 }
 

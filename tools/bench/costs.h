@@ -70,7 +70,5 @@ std::string threadsName(int threads);
 
 void registerClouds();
 void registerMeshes();
-/// Pictures of points, written as PNG.
-void registerPictures();
 
 }  // namespace tufted::bench

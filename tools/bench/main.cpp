@@ -8,9 +8,6 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   tufted::bench::registerClouds();
   tufted::bench::registerMeshes();
-#ifdef TUFTED_BENCH_IO
-  tufted::bench::registerPictures();
-#endif
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
 }

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <limits>
-#include <nanoflann.hpp>
 #include <optional>
 #include <vector>
 
@@ -41,49 +40,17 @@ double flannSeconds(const PointsView& points, int k, const Setting& setting) {
   return watch.seconds();
 }
 
-struct Adaptor {
-  const PointsView& points;
-
-  std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.rows()); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(axis));
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-double nanoflannSeconds(const PointsView& points, int k) {
-  using Index =
-      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor>, Adaptor, 3, std::uint32_t>;
-  const CpuStopwatch watch;
-  const Adaptor adaptor{points};
-  Index index(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(10));
-  index.buildIndex();
-  std::vector<std::uint32_t> found(static_cast<std::size_t>(k) + 1);
-  std::vector<double> distance(found.size());
-  for (Eigen::Index p = 0; p < points.rows(); ++p) {
-    index.knnSearch(points.row(p).data(), found.size(), found.data(), distance.data());
-    benchmark::DoNotOptimize(found.data());
-  }
-  return watch.seconds();
-}
-
 }  // namespace
 
-SearchSeconds searchSeconds(const PointsView& points, int k) {
+double searchSeconds(const PointsView& points, int k) {
   static Eigen::Index tried_size = -1;
   static Setting fastest{};
-  SearchSeconds seconds{std::numeric_limits<double>::infinity(), nanoflannSeconds(points, k)};
-  if (tried_size == points.rows()) {
-    seconds.flann = flannSeconds(points, k, fastest);
-    return seconds;
-  }
+  if (tried_size == points.rows()) return flannSeconds(points, k, fastest);
+  double seconds = std::numeric_limits<double>::infinity();
   for (const Setting& setting : settings) {
     const double tried = flannSeconds(points, k, setting);
-    if (tried >= seconds.flann) continue;
-    seconds.flann = tried;
+    if (tried >= seconds) continue;
+    seconds = tried;
     fastest = setting;
   }
   tried_size = points.rows();
