@@ -92,12 +92,12 @@ struct Errors {
 
 }  // namespace
 
-void printDistance(const Settings& settings) {
+Json printDistance(const Settings& settings) {
   constexpr Eigen::Index most = 25000;  // triangles: CGAL's exact search takes minutes on more
   std::vector<Errors> methods = {{"tufted, marching"}, {"tufted, heat"}};
   for (const int k : {8, 15, 30}) methods.push_back({"Dijkstra, " + std::to_string(k) + " nearest"});
   const std::size_t first = methods.size();
-  std::vector<CloudRival> symmetric = cloudRivals();
+  std::vector<CloudRival> symmetric = rivalsOf(settings);
   std::erase_if(symmetric, [](const CloudRival& rival) { return !rival.symmetric; });
   for (const CloudRival& rival : symmetric) methods.push_back({"heat by " + rival.name});
   for (const RealShape& shape : shapesOf(settings, 0)) {
@@ -119,6 +119,7 @@ void printDistance(const Settings& settings) {
                all.empty() ? Cell("") : percent(*std::max_element(all.begin(), all.end())),
                lost.empty() ? Cell("") : percent(*std::max_element(lost.begin(), lost.end()), "%.2f %%")});
   }
+  return table.json();
 }
 
 }  // namespace tufted::bench

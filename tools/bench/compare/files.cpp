@@ -7,7 +7,7 @@
 
 namespace tufted::bench {
 
-void printDataset(const Settings& settings) {
+Json printDataset(const Settings& settings) {
   struct Way {
     std::string name;
     double mollify;
@@ -48,6 +48,7 @@ void printDataset(const Settings& settings) {
     table.row({way.name, files, nonmanifold, Cell("%.0f", triangles), way.ok,
                percent(static_cast<double>(way.ok) / std::max(files, 1), "%.2f %%"), Cell("%.1f", way.seconds)});
   }
+  return table.json();
 }
 
 }  // namespace tufted::bench

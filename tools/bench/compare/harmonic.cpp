@@ -99,7 +99,7 @@ struct Overshoots {
 
 }  // namespace
 
-void printBoundary(const Settings& settings) {
+Json printBoundary(const Settings& settings) {
   const std::vector<shapes::Mesh> meshes = meshesOf(settings);
   Table table({"data", "Laplacian", "of " + std::to_string(meshes.size()) + " it applies to", "it overshoots on",
                "median overshoot", "greatest", "positive off-diagonals", "points without row", "no solution"});
@@ -109,15 +109,16 @@ void printBoundary(const Settings& settings) {
       found.add([&] { return rival.build(mesh.points, mesh.triangles); }, true, settings.first_seed);
     table.row(found.row("meshes", rival.name));
   }
-  for (const CloudRival& rival : cloudRivals()) {
+  for (const CloudRival& rival : rivalsOf(settings)) {
     Overshoots found;
     for (const shapes::Mesh& mesh : meshes)
       found.add([&] { return rival.build(mesh.points, rival.k); }, rival.symmetric, settings.first_seed);
     table.row(found.row("vertices", rival.name));
   }
+  return table.json();
 }
 
-void printGreen(const Settings& settings) {
+Json printGreen(const Settings& settings) {
   constexpr std::array<int, 3> neighbors = {15, 30, 60};
   constexpr int sources = 4, most_clouds = 3;
   const int n = settings.pointsOr(4000);
@@ -130,10 +131,12 @@ void printGreen(const Settings& settings) {
   for (int s = 0; s < sources; ++s) f(drawn[s + 1], s) = 1;
   Table table(
       {"Laplacian, k = 15; 30; 60", "nonzeros per row", "build, s", "factor, s", "solve, ms", "least over greatest"});
-  for (const CloudRival& rival : cloudRivals()) {
+  for (const CloudRival& rival : rivalsOf(settings)) {
     std::vector<Cell> row = {rival.name, "", "", "", "", ""};
     const auto add = [&row](std::size_t column, const Cell& cell) {
       row[column].text += (row[column].text.empty() ? "" : "; ") + cell.text;
+      if (!row[column].value.is_array()) row[column].value = Json::array();
+      row[column].value.push_back(cell.value);
     };
     for (const int k : neighbors) {
       double entries = 0, build = 0, least = 0;
@@ -163,6 +166,7 @@ void printGreen(const Settings& settings) {
     }
     table.row(row);
   }
+  return table.json();
 }
 
 }  // namespace tufted::bench

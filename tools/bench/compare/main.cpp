@@ -1,14 +1,30 @@
 // tufted_compare: other Laplacians and ours on the same data, one table per question. See --help.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <map>
+#include <stdexcept>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "bench/compare/tables.h"
 
 namespace tufted::bench {
+
+std::vector<CloudRival> rivalsOf(const Settings& settings) {
+  const std::vector<CloudRival> all = cloudRivals();
+  if (settings.rivals.empty()) return all;
+  std::vector<CloudRival> rivals;
+  for (const std::string& name : settings.rivals) {
+    const auto named =
+        std::find_if(all.begin(), all.end(), [&](const CloudRival& rival) { return rival.name == name; });
+    if (named == all.end()) throw std::runtime_error("--rivals: no Laplacian is called " + name);
+    rivals.push_back(*named);
+  }
+  return rivals;
+}
 
 std::vector<RealShape> shapesOf(const Settings& settings, int eigenvalues) {
   std::vector<RealShape> shapes;
@@ -25,7 +41,7 @@ int main(int argc, char** argv) {
   namespace bench = tufted::bench;
   struct Command {
     const char *name, *purpose;
-    void (*print)(const bench::Settings&);
+    bench::Json (*print)(const bench::Settings&);
   };
   const std::vector<Command> commands = {
       {"spectrum", "Errors of 40 eigenvalues on real shapes, a sphere and a torus", bench::printSpectrum},
@@ -42,6 +58,7 @@ int main(int argc, char** argv) {
       {"cover", "The tufted cover of a small mesh and its intrinsic edges, as a drawing", bench::printCover},
   };
   bench::Settings settings;
+  std::string json;
   const std::map<std::string, bench::Half> halves = {
       {"choosing", bench::Half::choosing}, {"held-out", bench::Half::held_out}, {"both", bench::Half::both}};
   CLI::App app("Compares Laplacians of clouds and meshes, each command by one table.");
@@ -56,7 +73,9 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", settings.seeds, "spectrum, noise, density, lines, sheets: how many seeds")
       ->check(CLI::Range(1, 100));
   app.add_option("--shapes", settings.shapes, "At most this many real shapes");
+  app.add_option("--rivals", settings.rivals, "Only these")->delimiter(';');
   app.add_option("-k", settings.k, "The same tables: neighbours, instead of the number of each rival");
+  app.add_option("--json", json, "Write the rows to this file as well");
   for (const Command& command : commands) {
     CLI::App* added = app.add_subcommand(command.name, command.purpose);
     if (command.print == bench::printDataset) added->add_option("DIR", settings.meshes, "Folder, with its subfolders");
@@ -66,8 +85,12 @@ int main(int argc, char** argv) {
   }
   CLI11_PARSE(app, argc, argv);
   try {
-    for (const Command& command : commands)
-      if (app.got_subcommand(command.name)) command.print(settings);
+    for (const Command& command : commands) {
+      if (!app.got_subcommand(command.name)) continue;
+      const bench::Json rows = command.print(settings);
+      if (!json.empty() && !(std::ofstream(json) << rows.dump(1) << "\n"))
+        throw std::runtime_error("cannot write " + json);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "tufted_compare: %s\n", error.what());
     return 1;

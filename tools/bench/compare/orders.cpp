@@ -40,7 +40,7 @@ std::vector<Cell> orderRow(const std::string& name, const VectorXd& exact, const
 
 }  // namespace
 
-void printOrders(const Settings& settings) {
+Json printOrders(const Settings& settings) {
   Table table({"input", "area: eigenvalues move by", "random: by", "error by angle", "by area", "by random order"});
   struct Input {
     std::string name;
@@ -69,6 +69,7 @@ void printOrders(const Settings& settings) {
       return meshLaplacian(book.points, book.triangles, {.threads = 1, .paper = paper});
     }));
   }
+  return table.json();
 }
 
 }  // namespace tufted::bench

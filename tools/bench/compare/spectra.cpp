@@ -70,7 +70,9 @@ std::string notReal(const Result& result) {
 
 Cell errorCell(const Result& result, double error) {
   if (result.errors.empty()) return "no spectrum";
-  return error > 10 ? Cell("over 1000 %") : percent(error);
+  Cell cell = percent(error);
+  if (error > 10) cell.text = "over 1000 %";
+  return cell;
 }
 
 /// The clouds that `make` draws for each seed.
@@ -86,7 +88,7 @@ Column columnOf(const Settings& settings, const Make& make) {
 
 /// One row per rival, one column of mean errors per number, for which make(number, seed) draws clouds.
 template <class Make>
-void printConditions(const Settings& settings, const char* name, const std::vector<double>& numbers, const Make& make) {
+Json printConditions(const Settings& settings, const char* name, const std::vector<double>& numbers, const Make& make) {
   std::vector<Column> columns;
   std::vector<std::string> names = {"Laplacian"};
   for (const double number : numbers) {
@@ -95,7 +97,7 @@ void printConditions(const Settings& settings, const char* name, const std::vect
   }
   names.emplace_back("not real and positive");
   Table table(names);
-  for (const CloudRival& rival : cloudRivals()) {
+  for (const CloudRival& rival : rivalsOf(settings)) {
     std::vector<Cell> row = {rival.name};
     Result all;
     for (const Column& column : columns) {
@@ -106,11 +108,12 @@ void printConditions(const Settings& settings, const char* name, const std::vect
     row.emplace_back(notReal(all));
     table.row(row);
   }
+  return table.json();
 }
 
 }  // namespace
 
-void printSpectrum(const Settings& settings) {
+Json printSpectrum(const Settings& settings) {
   const int n = settings.pointsOr(8000);
   Column real;
   for (const RealShape& shape : shapesOf(settings, compared)) {
@@ -131,7 +134,7 @@ void printSpectrum(const Settings& settings) {
       settings, [&](std::uint64_t seed) { return noisy(shapes::torus(n, shapes::Sampling::uniform, seed), seed); });
   Table table({"Laplacian", std::to_string(real.size()) + " real clouds, median", "worst", "sphere", "torus",
                "not real and positive", "build, s"});
-  for (const CloudRival& rival : cloudRivals()) {
+  for (const CloudRival& rival : rivalsOf(settings)) {
     const int k = settings.k > 0 ? settings.k : rival.k;
     const Result result = measure(rival, k, real), on_sphere = measure(rival, k, sphere),
                  on_torus = measure(rival, k, torus);
@@ -141,33 +144,34 @@ void printSpectrum(const Settings& settings) {
                errorCell(on_sphere, on_sphere.mean()), errorCell(on_torus, on_torus.mean()), notReal(result),
                Cell("%.2f", result.seconds / static_cast<double>(std::max<std::size_t>(real.size(), 1)))});
   }
+  return table.json();
 }
 
-void printNoise(const Settings& settings) {
+Json printNoise(const Settings& settings) {
   const int n = settings.pointsOr(4000);
-  printConditions(settings, "%g spacings", {0, .1, .3, .6, 1}, [n](double noise, std::uint64_t seed) {
+  return printConditions(settings, "%g spacings", {0, .1, .3, .6, 1}, [n](double noise, std::uint64_t seed) {
     const shapes::Cloud torus = shapes::torus(n, shapes::Sampling::uniform, seed);
     return noise > 0 ? shapes::withNoise(torus, noise * std::sqrt(torus.area / n), seed + 100) : torus;
   });
 }
 
-void printDensity(const Settings& settings) {
+Json printDensity(const Settings& settings) {
   const int n = settings.pointsOr(4000);
-  printConditions(settings, "density 1 to %g", {1, 4, 16, 100}, [n](double ratio, std::uint64_t seed) {
+  return printConditions(settings, "density 1 to %g", {1, 4, 16, 100}, [n](double ratio, std::uint64_t seed) {
     return shapes::torus(n, shapes::Sampling::densityStep(ratio), seed);
   });
 }
 
-void printLines(const Settings& settings) {
+Json printLines(const Settings& settings) {
   const int n = settings.pointsOr(4000);
-  printConditions(settings, "lines %g times as far apart", {1, 3, 10, 30}, [n](double ratio, std::uint64_t seed) {
-    return shapes::torus(n, shapes::Sampling::scanLines(ratio), seed);
-  });
+  return printConditions(
+      settings, "lines %g times as far apart", {1, 3, 10, 30},
+      [n](double ratio, std::uint64_t seed) { return shapes::torus(n, shapes::Sampling::scanLines(ratio), seed); });
 }
 
-void printSheets(const Settings& settings) {
+Json printSheets(const Settings& settings) {
   const int n = settings.pointsOr(4000);
-  printConditions(settings, "%g spacings apart", {0.5, 1, 2, 4, 8}, [n](double spacings, std::uint64_t seed) {
+  return printConditions(settings, "%g spacings apart", {0.5, 1, 2, 4, 8}, [n](double spacings, std::uint64_t seed) {
     return shapes::twoSheets(n, spacings * std::sqrt(2.0 / n), seed);
   });
 }
