@@ -69,8 +69,8 @@ struct TileReport {
 /// are final when the function returns; before, those that depend on far stars may differ from the whole. No rows are
 /// given for points that are not finite
 /// @throws InvalidInput for options out of range, `cloud` with normals, neighborhoods, a structure or a viewpoint, with
-/// denoise, or with options of the paper that need a whole cover; if what the rows of one cell depend on does not fit in
-/// memory
+/// denoise, or with options of the paper that need a whole cover; if what the rows of one cell depend on does not fit
+/// in memory
 /// @throws IoError if the file in `folder` cannot be written
 /// @throws Cancelled when `progress` returns false
 TileReport laplacianByTiles(const PointSource& source, const TileOptions& options,

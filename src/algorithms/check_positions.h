@@ -11,8 +11,9 @@ namespace tufted {
 /// @throws InvalidInput for arrays of the wrong size, or positions of active points that are not finite
 void checkPositions(const std::string& function, const Laplacian& laplacian);
 
-/// Checks frames, too, for functions that need frames and positions.
-/// @throws InvalidInput for frames of the wrong size, or those of active points that are not finite, too
+/// Checks frames after checkPositions(), for functions that need both.
+/// @throws InvalidInput as checkPositions(), and for frames of the wrong size or frames of active points that are not
+/// finite
 void checkFrames(const std::string& function, const Laplacian& laplacian, const Frames& frames);
 
 }  // namespace tufted

@@ -227,8 +227,7 @@ class March {
   }
 
   /// Lowers distances along edges until none exceeds that of a neighbour by more than the length of their edge. Only
-  /// vertices that were frozen after farther ones can lower others. The heap, now empty, has vertices instead of
-  /// labels.
+  /// vertices that were frozen after farther ones can lower others. The heap is empty by then, and holds vertices here.
   void limitSlopes() {
     const auto lower = [&](int a, int b, double ab) {
       const double distance = result_.distance[a] + ab;

@@ -24,7 +24,7 @@ struct MarchFace {
   std::array<int, 3> corners;
   std::array<int, 3> edges;        ///< edge of each side
   std::array<double, 3> opposite;  ///< length of each side
-  double signed_area;              ///< base times height, with the sign of isBent(), which saves memory
+  double signed_area;              ///< base times height; its sign is that of isBent(), which saves 8 bytes
 
   double doubleArea() const { return std::abs(signed_area); }
   /// Whether a side is longer than the straight line between its ends in MarchFaces::positions.
@@ -73,7 +73,7 @@ constexpr int thirdSlot(int a, int b) {
 /// @param split how often each face is cut into four, 0 to 2. The march itself makes the last cut, the one before is
 /// stored here: the midpoint of edge e of the given faces is then vertex `vertices + e`.
 /// @param positions of each vertex, in the caller's unit; no rows: not known
-/// @param number place of each vertex of `positions` among the vertices, a permutation; empty: unchanged
+/// @param number the vertex of each row of `positions`, a permutation; empty: unchanged
 MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponent, int split, const Workers& workers,
                       const Points& positions = {}, const std::vector<int>& number = {});
 /// Makes the faces of a Laplacian's cover for a march.

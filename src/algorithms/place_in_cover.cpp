@@ -99,7 +99,7 @@ std::vector<PlaceInCover> placesInCover(const std::string& function, const Cover
   const IntrinsicTriangulation none;
   const bool are_vertices = std::all_of(sources.begin(), sources.end(), isAtVertex);
   const IntrinsicTriangulation& cover = are_vertices ? none : source_of_cover.cover();
-  checkGlue(function, cover);
+  if (!are_vertices) checkGlue(function, cover);
   const auto sides = sidesAt(cover, sources);
   std::vector<PlaceInCover> places;
   for (int s = 0; s < std::ssize(sources); ++s) {

@@ -20,6 +20,8 @@ class CoverSource {
   virtual const IntrinsicTriangulation& cover() const = 0;
   /// The cover if it is stored, so that it costs nothing to ask for it; otherwise null.
   virtual const IntrinsicTriangulation* stored() const { return nullptr; }
+  /// The number of vertices, also without building the cover.
+  virtual int vertices() const { return cover().vertices; }
   /// The number of parts in which visitFaces() has the faces: stars of a cloud, otherwise faces.
   virtual std::int64_t parts() const { return cover().size(); }
   using FaceVisit = std::function<void(const std::array<int, 3>& corners, const double* lengths)>;

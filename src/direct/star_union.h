@@ -51,6 +51,7 @@ class StarUnion final : public CoverSource {
 
   /// The whole cover, made at the first call.
   const IntrinsicTriangulation& cover() const override;
+  int vertices() const override { return size_; }
   std::int64_t parts() const override { return stars_.size(); }
   void visitFaces(std::int64_t begin, std::int64_t end, const FaceVisit& visit) const override;
   VectorXd starAreas() const override;

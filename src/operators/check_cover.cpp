@@ -7,11 +7,12 @@ namespace tufted {
 
 void checkCover(const std::string& function, const Laplacian& laplacian) {
   const std::string name = function + ": cover ";
-  if (laplacian.hasCover() && laplacian.cover_source->stored() == nullptr) return;  // that of a cloud's stars fits
-  const IntrinsicTriangulation& cover = laplacian.cover();
   const auto n = std::ssize(laplacian.status);
-  if (cover.vertices != n)
-    throw InvalidInput(name + "has " + std::to_string(cover.vertices) + " vertices, must have " + std::to_string(n));
+  const int vertices = laplacian.hasCover() ? laplacian.cover_source->vertices() : laplacian.cover().vertices;
+  if (vertices != n)
+    throw InvalidInput(name + "has " + std::to_string(vertices) + " vertices, must have " + std::to_string(n));
+  if (laplacian.cover_source->stored() == nullptr) return;  // a build has made its faces
+  const IntrinsicTriangulation& cover = laplacian.cover();
   if (std::ssize(cover.length) != 3 * cover.size())
     throw InvalidInput(name + "has " + std::to_string(cover.length.size()) + " lengths, must have " +
                        std::to_string(3 * cover.size()));

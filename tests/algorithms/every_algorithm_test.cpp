@@ -15,7 +15,8 @@ using Eigen::MatrixXd;
 using support::Algorithm;
 
 TEST(EveryAlgorithm, HasTheSameBitsOnAnyNumberOfThreads) {
-  const Points points = shapes::withNoise(shapes::torus(4000), 0.01).points;
+  // More stars and faces than one block of the loops that run in parallel.
+  const Points points = shapes::withNoise(shapes::torus(9000), 0.01).points;
   const Laplacian laplacian = pointCloudLaplacian(points);
   const std::vector<Algorithm> single = support::algorithms(1), many = support::algorithms(3);
   for (std::size_t k = 0; k < single.size(); ++k) {

@@ -86,6 +86,10 @@ TEST(DistanceSolver, RefusesACoverOfOtherPoints) {
   EXPECT_EQ(support::refusal([&] { DistanceSolver solver(laplacian); }),
             "DistanceSolver: cover has the corner 25, must lie in [0, 25)");
   cover = meshLaplacian(mesh.points, mesh.triangles).cover();
+  Laplacian of_stars = pointCloudLaplacian(shapes::sphere(40).points);
+  of_stars.cover_source = pointCloudLaplacian(shapes::sphere(60).points).cover_source;
+  EXPECT_EQ(support::refusal([&] { DistanceSolver solver(of_stars); }),
+            "DistanceSolver: cover has 60 vertices, must have 40");
   cover.length.pop_back();
   laplacian.setCover(cover);
   EXPECT_EQ(support::refusal([&] { DistanceSolver solver(laplacian); }).find("DistanceSolver: cover has"), 0);

@@ -281,6 +281,7 @@ TEST(Marching, TakesTheFacesOfACloudFromItsStarsWithTheBitsOfTheCover) {
   struct StarsOnly : CoverSource {
     explicit StarsOnly(std::shared_ptr<const CoverSource> source) : source_(std::move(source)) {}
     const IntrinsicTriangulation& cover() const override { throw std::logic_error("the cover is asked for"); }
+    int vertices() const override { return source_->vertices(); }
     std::int64_t parts() const override { return source_->parts(); }
     void visitFaces(std::int64_t begin, std::int64_t end, const FaceVisit& visit) const override {
       source_->visitFaces(begin, end, visit);

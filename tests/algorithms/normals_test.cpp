@@ -242,6 +242,21 @@ TEST(OrientedFrames, OfADepthImageFaceItsOrigin) {
   EXPECT_GE(outwardShare(laplacian, laplacian.frames.normals, image.normals), 0.99);
 }
 
+TEST(OrientedFrames, OfOddPointsAreDefined) {
+  Points points = shapes::sphere(500).points;
+  points.row(3).setConstant(NAN);
+  points.row(9) = points.row(1);
+  points.row(12) << 50, 50, 50;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Frames frames = orientedFrames(laplacian);
+  EXPECT_TRUE(frames.normals.row(3).isZero(0));
+  EXPECT_EQ(frames.normals.row(9), frames.normals.row(1));
+  EXPECT_EQ(frames.tangents.row(9), frames.tangents.row(1));
+  EXPECT_GT(frames.normals.row(1).dot(points.row(1)), 0);
+  EXPECT_EQ(orientedFrames(pointCloudLaplacian(Points(0, 3))).normals.rows(), 0);
+  EXPECT_EQ(orientedFrames(pointCloudLaplacian(Points::Zero(1, 3))).normals.rows(), 1);
+}
+
 TEST(OrientedFrames, RefuseWhatDoesNotFit) {
   const Points points = shapes::sphere(100).points;
   const Laplacian laplacian = pointCloudLaplacian(points);

@@ -134,6 +134,21 @@ TEST(SignedDistance, GoesOnAcrossGaps) {
   EXPECT_LE(wrong, 0.005);
 }
 
+TEST(SignedDistance, DoesNotDependOnUnitPlaceOrThreads) {
+  const Case sphere = onSphere(600);
+  const VectorXd distance = SignedDistanceSolver(orientedCloud(sphere.points)).query(sphere.curve);
+  for (const int exponent : {400, -400}) {
+    const double unit = std::ldexp(1, exponent);
+    const VectorXd scaled = SignedDistanceSolver(orientedCloud(unit * sphere.points)).query(sphere.curve) / unit;
+    EXPECT_LE((scaled - distance).cwiseAbs().maxCoeff(), 1e-12) << exponent;
+  }
+  const Points far = sphere.points.rowwise() + Eigen::RowVector3d(1e5, -1e5, 3e5);
+  EXPECT_LE((SignedDistanceSolver(orientedCloud(far)).query(sphere.curve) - distance).cwiseAbs().maxCoeff(), 1e-4);
+  for (const int threads : {1, 3})
+    EXPECT_EQ(SignedDistanceSolver(orientedCloud(sphere.points), {.solver = {.threads = threads}}).query(sphere.curve),
+              distance);
+}
+
 TEST(SignedDistance, OfOddCloudsIsDefined) {
   const Case disk = onDisk(1000);
   const Eigen::Index n = disk.points.rows();

@@ -185,24 +185,6 @@ TEST(DenoisedImage, LeavesPointsWithoutASurfaceWhereTheyAre) {
   EXPECT_EQ(done.report.outliers, 1);
 }
 
-TEST(DenoisedImage, OfAnySizeLosesNoise) {
-  const double noise = 2e-3;
-  for (const auto& [columns, rows] : {std::pair{70, 61}, {61, 58}, {13, 90}, {64, 20}, {9, 7}, {1, 30}, {57, 1}}) {
-    shapes::Random random(columns);
-    Points surface(columns * rows, 3), points = surface;
-    for (int i = 0; i < points.rows(); ++i) {
-      const Eigen::RowVector3d ray((i % columns - columns / 2) / 100.0, (i / columns - rows / 2) / 100.0, 1);
-      surface.row(i) = ray / (1 - 0.3 * ray.x() + 0.2 * ray.y());
-      points.row(i) = ray / (1 / surface(i, 2) + noise * random.normal());
-    }
-    const ScanStructure structure = imageStructure(columns, rows);
-    const double share = std::min(columns, rows) < 13 ? 1 : 0.4;  // too few pixels have a window
-    EXPECT_LE(rootMeanSquare(denoise(points, {.structure = &structure}).positions, surface),
-              share * rootMeanSquare(points, surface))
-        << columns << " x " << rows;
-  }
-}
-
 TEST(DenoisedImage, OfNoPointsOrOneIsDefined) {
   for (const int few : {0, 1, 5}) {
     const ScanStructure structure = imageStructure(few, 1);
