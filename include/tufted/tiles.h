@@ -46,16 +46,16 @@ struct TileOptions {
 
 /// What laplacianByTiles() did.
 struct TileReport {
-  std::int64_t points = 0;      ///< number of points
-  std::int64_t active = 0;      ///< points that take part
-  std::int64_t not_finite = 0;  ///< see PointStatus
-  std::int64_t coincident = 0;  ///< see PointStatus
-  std::int64_t isolated = 0;    ///< see PointStatus
-  std::int64_t nonzeros = 0;    ///< entries of L
-  double area = 0;              ///< sum of M
-  std::int64_t cells = 0;       ///< cells of the grid that hold points
-  int tiles = 0;                ///< number of tiles
-  int builds = 0;  ///< number of builds; those beyond `tiles` built parts of tiles again, with a wider margin
+  std::int64_t points = 0;       ///< number of points
+  std::int64_t active = 0;       ///< points that take part
+  std::int64_t not_finite = 0;   ///< see PointStatus
+  std::int64_t coincident = 0;   ///< see PointStatus
+  std::int64_t isolated = 0;     ///< see PointStatus
+  std::int64_t nonzeros = 0;     ///< entries of L
+  double area = 0;               ///< sum of M
+  std::int64_t cells = 0;        ///< cells of the grid that hold points
+  int tiles = 0;                 ///< number of tiles
+  int builds = 0;                ///< number of builds; those beyond `tiles` built parts of tiles, see docs/scale.md
   std::int64_t most_points = 0;  ///< most points that a build held
   double margin = 0;             ///< points of all builds per point, less 1
 };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -68,7 +69,14 @@ FileSource sourceOf(Geometry geometry, const std::string& name, const Selection&
     source.kept = std::ssize(rows);
     source.memory = static_cast<double>(rows.size() * sizeof(int));
     if (geometry.height == 1)
-      source.rows = [rows = std::move(rows)](const auto& take) { take({rows.begin(), rows.end()}); };
+      source.rows = [rows = std::move(rows)](const auto& take) {
+        constexpr std::ptrdiff_t most = 1 << 20;  // 8 MB as numbers of 64 bits
+        for (auto first = rows.begin(); first != rows.end();) {
+          const auto end = first + std::min(most, rows.end() - first);
+          take({first, end});
+          first = end;
+        }
+      };
   }
   source.notes = std::move(geometry.notes);
   source.size = geometry.points.rows();

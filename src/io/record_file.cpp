@@ -12,8 +12,20 @@
 namespace tufted::io {
 namespace {
 
-constexpr std::size_t longest_header = std::size_t{1} << 20;  // but that of LAS has records of 65,535 bytes each
-constexpr std::size_t most_points = std::size_t{1} << 15;     // eight times as many took seven times as long
+constexpr std::size_t longest_header = std::size_t{1} << 20;  // files with longer ones are read whole
+/// A pass in batches of eight times as many points took seven times as long: these stay in the cache.
+constexpr std::size_t most_points = std::size_t{1} << 15;
+
+/// Whether a header is longer than the beginning of the file that was read.
+bool isLonger(std::string_view bytes) {
+  if (bytes.starts_with("LASF")) {
+    std::uint32_t begin = 0;
+    std::memcpy(&begin, bytes.data() + las_byte::points_begin, sizeof begin);
+    return begin > bytes.size();
+  }
+  if (bytes.starts_with("\x93NUMPY")) return false;
+  return bytes.find(bytes.starts_with("ply") ? "end_header" : "DATA") == std::string_view::npos;
+}
 
 }  // namespace
 
@@ -28,11 +40,7 @@ std::shared_ptr<RecordFile> RecordFile::open(const std::filesystem::path& path, 
   if (!file->file_ || error || size == 0) return nullptr;
   std::string bytes;
   file->read(0, std::min(size, longest_header), bytes);
-  if (bytes.size() == longest_header && bytes.starts_with("LASF")) {
-    std::uint32_t begin = 0;
-    std::memcpy(&begin, bytes.data() + las_byte::points_begin, sizeof begin);
-    file->read(longest_header, std::clamp<std::size_t>(begin, longest_header, size) - longest_header, bytes);
-  }
+  if (size > longest_header && isLonger(bytes)) return nullptr;
   std::optional<RecordLayout> layout = recordLayout(path, bytes, size);
   if (!layout) return nullptr;
   const std::size_t point_bytes = layout->record_bytes * static_cast<std::size_t>(layout->columns);
@@ -48,6 +56,7 @@ void RecordFile::read(std::size_t begin, std::size_t count, std::string& bytes) 
   file_.clear();
   file_.seekg(static_cast<std::streamoff>(begin)).read(bytes.data() + before, static_cast<std::streamsize>(count));
   const auto got = static_cast<std::size_t>(file_.gcount());
+  if (file_.bad()) refuse(path_, "cannot be read");
   if (got < count) refuseByte(path_, begin + got, "the file ends there, and was longer when it was opened");
 }
 
@@ -55,11 +64,17 @@ std::vector<std::string> RecordFile::notes() {
   const std::size_t begin =
       layout_.begin + static_cast<std::size_t>(layout_.points * layout_.columns) * layout_.record_bytes;
   if (begin >= layout_.end) return {};
-  std::string rest;
-  read(begin, layout_.end - begin, rest);
+  constexpr std::size_t block = std::size_t{1} << 20;
+  bool are_zero = true;
+  std::string bytes;
+  for (std::size_t at = begin; at < layout_.end && are_zero; at += block) {
+    bytes.clear();
+    read(at, std::min(block, layout_.end - at), bytes);
+    are_zero = areZero(bytes);
+  }
   Geometry some;
   some.points.resize(1, 3);
-  noteRest(path_, "byte " + std::to_string(begin), rest, some);
+  noteRest(path_, "byte " + std::to_string(begin), layout_.end - begin, are_zero, some);
   return some.notes;
 }
 

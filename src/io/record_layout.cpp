@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "io/errors.h"
 #include "io/field_names.h"
 #include "io/formats.h"
@@ -107,7 +109,7 @@ Layout recordLayout(const std::filesystem::path& path, std::string_view bytes, s
   if (!layout || layout->points == 0) return std::nullopt;
   const std::size_t point_bytes = layout->record_bytes * static_cast<std::size_t>(layout->columns);
   if (static_cast<std::size_t>(layout->points) >
-      (all - layout->begin) / point_bytes)  // other formats have checked that
+      (all - std::min(layout->begin, all)) / point_bytes)  // other formats have checked that
     refuseByte(path, all,
                "ends there, too short for " + std::to_string(layout->points) + " points of " +
                    std::to_string(point_bytes) + " bytes");

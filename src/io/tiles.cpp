@@ -143,6 +143,9 @@ std::vector<std::string> tileFiles() {
 
 TileReport writeLaplacianByTiles(const std::filesystem::path& dir, const PointSource& source,
                                  const TileOptions& options, const TileSourceText& text) {
+  if (text.rows && text.of < source.size)
+    throw InvalidInput("writeLaplacianByTiles: of = " + std::to_string(text.of) + ", must be at least the " +
+                       std::to_string(source.size) + " points of the source, if rows are given");
   io::StagedFiles files(dir);
   io::RowStore store(dir, source.size);
   TileOptions used = options;

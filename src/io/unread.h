@@ -16,9 +16,13 @@ namespace tufted::io {
 /// @throws IoError naming the byte if there are bytes but no record, because such a file must not be read as empty
 void noteUnread(const std::filesystem::path& path, std::string_view bytes, std::size_t end, Geometry& geometry);
 
-/// noteUnread() for bytes of which the file is not in memory.
-/// @param place where they begin: "byte 120"
-void noteRest(const std::filesystem::path& path, const std::string& place, std::string_view rest, Geometry& geometry);
+/// Whether all bytes are 0, as those with which PCL's writer pads files.
+bool areZero(std::string_view bytes);
+
+/// noteUnread() for a file that is not in memory.
+/// @param place where the bytes after the last record begin: "byte 120"
+void noteRest(const std::filesystem::path& path, const std::string& place, std::size_t bytes, bool are_zero,
+              Geometry& geometry);
 
 /// noteUnread() for a text whose last record is in the scanner's current line. Blank lines and comments do not count.
 /// @throws IoError naming the line

@@ -133,8 +133,12 @@ class TileBuilds {
     return !again.empty();
   }
 
-  void build(TileTask task) {
-    while (!task.own.empty()) {
+  void build(TileTask first) {
+    std::vector<TileTask> open = {std::move(first)};
+    while (!open.empty()) {
+      const TileTask task = std::move(open.back());
+      open.pop_back();
+      if (task.own.empty()) continue;
       ask(options_, "tiles", share_);
       Tile tile(points_, scaling_, task);
       tile.holdMargin(options_.cloud);
@@ -142,8 +146,8 @@ class TileBuilds {
         if (task.own.size() == 1) refuseLarge(tile.heldPoints());
         // Parts of a tile need fewer points around them.
         const auto middle = task.own.begin() + std::ssize(task.own) / 2;
-        build({{task.own.begin(), middle}, task.required});
-        task = {{middle, task.own.end()}, task.required};
+        open.push_back({{middle, task.own.end()}, task.required});
+        open.push_back({{task.own.begin(), middle}, task.required});
         continue;
       }
       most_held_ = std::max(most_held_, tile.heldPoints());
@@ -156,7 +160,7 @@ class TileBuilds {
         built_.push_back({{tile.complete(), task.required}, tile.neededCells(), countsOf(rows)});
         take_(rows);
       }
-      task = tile.rest();
+      open.push_back(tile.rest());
     }
   }
 

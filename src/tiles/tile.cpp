@@ -120,12 +120,13 @@ void Tile::build(const CloudOptions& options) {
 }
 
 void Tile::lackMore() {
-  const auto is_new = [&](int cell) { return is_held_[cell] == 0; };
-  if (std::any_of(kept_.begin(), kept_.end(), is_new)) return;
-  for (double radius = cells_.edge(); std::none_of(lacking_.begin(), lacking_.end(), is_new); radius *= 2)
+  std::vector<std::uint8_t> is_known = is_held_;
+  const auto is_new = [&](int cell) { return is_known[cell] == 0; };
+  if (std::any_of(kept_.begin(), kept_.end(), is_new) || std::any_of(lacking_.begin(), lacking_.end(), is_new)) return;
+  for (double radius = cells_.edge(); lacking_.empty() || is_held_[lacking_.back()] != 0; radius *= 2)
     for (const int own : incomplete_)
       cells_.visit(cells_.box(own), radius, [&](int cell) {
-        if (is_new(cell)) lacking_.push_back(cell);
+        if (std::exchange(is_known[cell], 1) == 0) lacking_.push_back(cell);
       });
 }
 

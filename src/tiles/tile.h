@@ -95,7 +95,8 @@ class Tile final : public CloudPart {
   std::vector<std::vector<int>> needs_;  ///< by cell, the cells with the stars that decide which of its triangles stay
   std::vector<double> dependence_;       ///< by cell, of own ones how far the rows of its points depend on stars
   std::vector<std::pair<int, int>> far_pairs_;
-  std::vector<std::pair<int, int>> doubtful_pairs_;  ///< second and first cell, of all stars in cells that are not sure
+  std::vector<std::pair<int, int>>
+      doubtful_pairs_;  ///< (to, from): a star in `from`, which is not sure, has a triangle with `to`
   std::vector<int> complete_, incomplete_, needed_, lacking_, kept_;
 };
 

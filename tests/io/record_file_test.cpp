@@ -196,6 +196,24 @@ TEST(RecordFile, ShortFilesAreRefusedAsAWhole) {
   }
 }
 
+TEST(RecordFile, OfAPcdThatEndsBehindItsHeaderNamesTheByte) {
+  const TemporaryDir dir;
+  const auto path =
+      dir.write("a.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\nHEIGHT 1\nPOINTS 3\nDATA binary");
+  EXPECT_EQ(refusal([&] { RecordFile::open(path); }), refusal([&] { tufted::read(path); }));
+}
+
+TEST(FileSource, OfALongHeaderIsReadWhole) {
+  const TemporaryDir dir;
+  const std::string comment = "comment " + std::string(std::size_t{1} << 20, 'c') + '\n';
+  const auto path = dir.write("a.ply", "ply\nformat binary_little_endian 1.0\n" + comment +
+                                           "element vertex 48\nproperty float x\nproperty float y\n"
+                                           "property float z\nend_header\n" +
+                                           packed<float>(rows(3)));
+  EXPECT_EQ(RecordFile::open(path), nullptr);
+  EXPECT_TRUE(areSame(pointsOf(tufted::sourceOf(path)), tufted::read(path).points));
+}
+
 TEST(FileSource, HasTheChosenPoints) {
   const TemporaryDir dir;
   for (const auto& [name, bytes] : files) {

@@ -108,7 +108,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
   summary.add("file", "%s (cloud)", input.name().c_str());
   summary.add("points", "%lld, %lld take part", static_cast<long long>(report.points),
               static_cast<long long>(report.active));
-  summary.add("tiles", "%d of at most %lld points, %.0f %% of them margin; %d built again with a wider margin",
+  summary.add("tiles", "%d of at most %lld points, %.0f %% of them margin; %d more builds for parts of them",
               report.tiles, static_cast<long long>(report.most_points), 100 * report.margin / (1 + report.margin),
               report.builds - report.tiles);
   summary.add("area", "%.10g, the sum of M", report.area);

@@ -51,7 +51,7 @@ struct TileSourceText {
   std::string preset = {};     ///< name of the preset
   std::string memory = {};     ///< the memory as the user gave it; empty: TileOptions::memory
   bool keep_noise = false;     ///< whether the user asked not to move noisy points
-  std::int64_t of = 0;         ///< number of points in that file
+  std::int64_t of = 0;         ///< number of points in that file, must be given with `rows`
   FileRows rows = {};          ///< see FileSource
 };
 
