@@ -27,7 +27,7 @@ struct RankedCloud {
 class MortonGrid {
  public:
   static constexpr int axis_bits = 21;  ///< bits of a code per axis: three axes fill 63
-  /// Of these the bits of a median spread: the grid covers 32 spreads, and points outside fall into its border.
+  /// A median spread has 2^16 cells per axis, so the grid covers 32 spreads. Points outside fall into its border.
   static constexpr int spread_bits = 16;
 
   explicit MortonGrid(const Scaling& scaling);

@@ -30,6 +30,14 @@ double circumradius(double a, double b, double c) {
   return a * b * c / (4 * triangleArea(a, b, c));
 }
 
+/// The cells that are marked, ascending.
+std::vector<int> marked(const std::vector<std::uint8_t>& is_marked) {
+  std::vector<int> cells;
+  for (std::size_t cell = 0; cell < is_marked.size(); ++cell)
+    if (is_marked[cell] != 0) cells.push_back(static_cast<int>(cell));
+  return cells;
+}
+
 }  // namespace
 
 Tile::Tile(const SortedPoints& points, const Scaling& whole, TileTask task)
@@ -146,10 +154,7 @@ std::vector<int> Tile::nearMarked(const std::vector<std::uint8_t>& is_marked) co
   std::vector<std::uint8_t> is_near(is_marked.size());
   for (int cell = 0; cell < cells_.size(); ++cell)
     if (is_marked[cell] != 0) cells_.visitNear(cell, [&](int near) { is_near[near] = 1; });
-  std::vector<int> cells;
-  for (int cell = 0; cell < cells_.size(); ++cell)
-    if (is_near[cell] != 0) cells.push_back(cell);
-  return cells;
+  return marked(is_near);
 }
 
 void Tile::findComplete(const Progress& progress) {
@@ -202,8 +207,7 @@ void Tile::findLacking(std::vector<int> cells) {
     if (is_held_[cell] == 0) lacking_.push_back(cell);
     cells_.visit(cells_.box(cell), reach_[cell], [&](int near) { is_kept[near] = 1; });
   }
-  for (int cell = 0; cell < cells_.size(); ++cell)
-    if (is_kept[cell] != 0) kept_.push_back(cell);
+  kept_ = marked(is_kept);
 }
 
 TileTask Tile::rest() const {

@@ -28,8 +28,9 @@ struct FileSource : PointSource {
 
 /// The points of a file that a selection keeps. LAS, binary PLY, binary PCD and NPY are read in batches, as often as
 /// the source is, so they may be larger than memory. Read once, and held, are: files of other formats, compressed PCD,
-/// PLY with lists at its points or elements before them, grids of NPY in Fortran's order; all files for
-/// Selection::thin; and for Selection::where NPY with six or more values per point and no names.
+/// PLY with lists at its points or elements before them, grids of NPY in Fortran's order, files with headers of more
+/// than a MiB, NPY with more than 100 values per point and no names; all files for Selection::thin; and for
+/// Selection::where NPY with six or more values per point and no names.
 ///
 /// Passes after the first throw IoError naming the byte if the file has changed. Elements behind the points of a PLY
 /// are not looked at.
@@ -67,7 +68,7 @@ std::vector<std::string> tileFiles();
 ///   representative.npy  int64, N, counted from 0
 ///   boundary.npy        uint8, N, see Boundary
 ///   normals.npy         float64, N x 3, of arbitrary sign; 0 for points that are not finite
-///   file_row.npy        N, TileSourceText::rows, if not null; int32, or int64 if the file has more than 2^31 points
+///   file_row.npy        N, TileSourceText::rows, if not null; int32, or int64 if the file has 2^31 points or more
 ///   report.json         the TileReport, the options, and as `files` the names of all files of this result
 /// While it runs, files without names in `dir` take 32 bytes per point and about 180 bytes per row that is built. All
 /// files appear together, as with writeLaplacian().
