@@ -22,19 +22,25 @@ struct MarchResult {
   std::vector<double> distance;  ///< of the vertices, then, if faces were cut, of the midpoints of edges
   std::vector<int> source;   ///< nearest source of each, of equally near ones the first; -1: not reached. Empty if all
                              ///< starts are of one source
-  std::int64_t visits = 0;   ///< number of labels that were frozen
+  std::int64_t visits = 0;   ///< how often a vertex was frozen
   std::int64_t lowered = 0;  ///< how often a distance exceeded that of a neighbour plus their edge, and was reduced
 };
 
-/// Marches from the starts over all faces. Distances are the least of those from each source, see
-/// LabelsOfSeveralSources. If faces have positions, none is below the straight line from its source.
+/// Marches from the starts over all faces. Distances from several sources are the least of those from each. If faces
+/// have positions, none is below the straight line from its source.
 /// @param split whether each face is cut into four, which are not stored
 /// @param maximum the march ends there; distances above it may be too large
-/// @param known distances of vertices and midpoints from other sources; the march ends a few edges behind them, and
-/// distances above them may be too large. Empty: none
 /// @throws Cancelled when the workers' progress returns false
-MarchResult march(const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts, double maximum,
-                  const Workers& workers, const SourcePositions& sources = {}, const std::vector<double>& known = {});
+MarchResult march(const MarchFaces& faces, bool split, std::vector<MarchStart> starts, double maximum,
+                  const Workers& workers, const SourcePositions& sources = {});
+
+/// The result of no source: infinite distances.
+MarchResult unreached(const MarchFaces& faces, bool split);
+
+/// Marches from one more source, where it may be nearer than the sources in a result, and adds it there.
+/// @param sources with the positions of all sources, by number
+void marchWhereNearer(const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts,
+                      const Workers& workers, const SourcePositions& sources, MarchResult& result);
 
 /// Marches from starts of one source until a vertex is frozen. Distances of nearer ones are final except for the last
 /// step of march(), which limits them by those of neighbours; others may be too large.

@@ -77,18 +77,12 @@ class Cells {
         faces_(marchFaces(laplacian, split_, workers_, number_)),
         area_(components.sums(laplacian.M)),
         has_seed_(static_cast<std::size_t>(components.count), false),
-        distance_(static_cast<std::size_t>(faces_.vertices) + (split_ > 0 ? faces_.edges : 0), infinity),
-        cell_(static_cast<std::size_t>(faces_.vertices), -1) {}
+        nearest_(unreached(faces_, split_ > 0)) {}
 
   void addSeed(int seed) {
-    const int start = number_[seed];
-    const MarchResult found =
-        march(faces_, split_ > 0, {{start, 0, 0}}, infinity, workers_, {faces_.positions[start]}, distance_);
-    for (std::size_t i = 0; i < distance_.size(); ++i) {
-      if (!(found.distance[i] < distance_[i])) continue;
-      distance_[i] = found.distance[i];
-      if (i < cell_.size()) cell_[i] = static_cast<int>(seeds_.size());
-    }
+    const int start = number_[seed], cell = static_cast<int>(seeds_.size());
+    places_.push_back(faces_.positions[start]);
+    marchWhereNearer(faces_, split_ > 0, {{start, 0, cell}}, workers_, places_, nearest_);
     has_seed_[components_.of[seed]] = true;
     seeds_.push_back(seed);
   }
@@ -99,7 +93,7 @@ class Cells {
     int best = -1;
     double best_distance = 0;
     for (const int i : components_.points) {
-      const double distance = distance_[number_[i]];
+      const double distance = nearest_.distance[number_[i]];
       if (!has_seed_[components_.of[i]] || !(distance > best_distance)) continue;
       best = i;
       best_distance = distance;
@@ -117,7 +111,7 @@ class Cells {
   std::vector<int> cells() const {
     std::vector<int> cell(static_cast<std::size_t>(laplacian_.M.size()), -1);
     for (const int i : components_.points)
-      if (has_seed_[components_.of[i]]) cell[i] = cell_[number_[i]];
+      if (has_seed_[components_.of[i]]) cell[i] = nearest_.source[number_[i]];
     return cell;
   }
 
@@ -159,10 +153,9 @@ class Cells {
   const MarchFaces faces_;
   const VectorXd area_;  ///< of each component
   std::vector<bool> has_seed_;
-  /// Distance from the nearest seed of the vertices and midpoints of the faces, and that seed of the vertices.
-  std::vector<double> distance_;
-  std::vector<int> cell_;
+  MarchResult nearest_;  ///< seed of each vertex
   std::vector<int> seeds_;
+  SourcePositions places_;  ///< of the seeds
 };
 
 Segments voronoi(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {

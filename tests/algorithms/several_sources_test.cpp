@@ -114,9 +114,9 @@ TEST(SeveralSources, ReachPointsFewTimes) {
     solver.query(randomSources(n, count, 101), &several);
     EXPECT_LE(several.visits, 3 * one.visits) << count;
   }
-  // Side by side many are almost equally near: five go on, and those beside them end.
+  // Side by side each marches beside the strip where it is the nearest.
   solver.query(firstPoints(100), &several);
-  EXPECT_LE(several.visits, 7 * one.visits);
+  EXPECT_LE(several.visits, 10 * one.visits);
 }
 
 TEST(SeveralSources, CountOnceWhereTheyAreTheSame) {
