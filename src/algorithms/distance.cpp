@@ -38,27 +38,6 @@ void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) 
   checkCover(constructor, laplacian);
 }
 
-void checkSource(const SurfacePoint& source, int n) {
-  const std::string name = std::string(query_name) + ": ";
-  for (int k = 0; k < 3; ++k) {
-    if (source.corners[k] < 0 || source.corners[k] >= n) {
-      throw InvalidInput(name + "source " + std::to_string(source.corners[k]) + ", must lie in [0, " +
-                         std::to_string(n) + ")");
-    }
-    if (!(source.weights[k] >= 0 && source.weights[k] <= 1)) {
-      throw InvalidInput(name + "weight of a source = " + numberText(source.weights[k]) + ", must lie in [0, 1]");
-    }
-    if (!(source.distances[k] >= 0 && std::isfinite(source.distances[k]))) {
-      throw InvalidInput(name + "distance of a source from a corner = " + numberText(source.distances[k]) +
-                         ", must be finite and at least 0");
-    }
-    if (!(source.sides[k] >= 0 && std::isfinite(source.sides[k]))) {
-      throw InvalidInput(name + "side of a source's triangle = " + numberText(source.sides[k]) +
-                         ", must be finite and at least 0");
-    }
-  }
-}
-
 }  // namespace
 
 struct DistanceSolver::State {
@@ -126,7 +105,7 @@ std::vector<SurfacePoint> DistanceSolver::State::checked(const std::vector<Surfa
   std::vector<SurfacePoint> found = sources;
   bool has_one = false;
   for (SurfacePoint& source : found) {
-    checkSource(source, static_cast<int>(representative.size()));
+    checkPlace(query_name, source, static_cast<int>(representative.size()));
     for (int k = 0; k < 3; ++k) {
       source.corners[k] = representative[source.corners[k]];
       has_one |= isActive(source.corners[k]) && source.weights[k] > 0;
