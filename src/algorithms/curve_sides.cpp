@@ -50,7 +50,7 @@ class Sides {
     for (const int i : cornersOf(place)) {
       forNeighbors(i, [&](int j) {
         const double distance = (surface_.positions.row(j) - place.position).stableNorm();
-        if (distance < nearest_[j].distance) nearest_[j] = {distance, 0};
+        if (distance < nearest_[j].distance) nearest_[j] = {distance, distance};
       });
     }
   }
@@ -60,15 +60,20 @@ class Sides {
     for (const int i : surface_.components.points)
       if (std::isfinite(distance_[i])) order.push_back(i);
     std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return distance_[i] < distance_[j]; });
+    // In [-1, 1]; next to a curve the sine of the angle between the shortest path and the line through the segment.
     VectorXd side = VectorXd::Zero(distance_.size());
     for (const int i : order) {
       if (distance_[i] == 0) continue;
-      double sum = nearest_[i].height;
-      if (!(nearest_[i].distance < std::numeric_limits<double>::infinity())) {
-        for (SparseMatrix::InnerIterator entry(surface_.L, i); entry; ++entry)
-          sum -= entry.value() * std::max(distance_[i] - distance_[entry.row()], 0.) * side[entry.row()];
+      double sum = nearest_[i].height, weight = nearest_[i].distance;
+      if (!(weight < std::numeric_limits<double>::infinity())) {
+        sum = weight = 0;
+        for (SparseMatrix::InnerIterator entry(surface_.L, i); entry; ++entry) {
+          const double share = std::max(distance_[i] - distance_[entry.row()], 0.) * std::abs(entry.value());
+          sum += share * side[entry.row()];
+          weight += share;
+        }
       }
-      side[i] = sum < 0 ? -1 : 1;
+      side[i] = weight > 0 ? std::clamp(sum / weight, -1., 1.) : 0;
     }
     for (const int i : order)
       if (side[i] < 0) distance_[i] = -distance_[i];

@@ -198,6 +198,36 @@ NearestSources DistanceSolver::nearest(const std::vector<SurfacePoint>& sources,
   return found;
 }
 
+Eigen::MatrixXd DistanceSolver::matrix(const std::vector<SurfacePoint>& sources, bool symmetric, DistanceReport* report,
+                                       const Progress& progress) const {
+  const State& state = *state_;
+  const std::vector<SurfacePoint> known = state.checked(sources);
+  DistanceReport made;
+  Eigen::MatrixXd distance = Eigen::MatrixXd::Constant(std::ssize(state.representative), std::ssize(sources), infinity);
+  std::vector<int> rows;
+  for (std::size_t s = 0; s < known.size(); ++s) {
+    const auto& [corners, weights, distances, sides] = known[s];
+    if (symmetric && (corners[0] != corners[1] || corners[1] != corners[2]))
+      throw InvalidInput("DistanceSolver::matrix: source " + std::to_string(s) +
+                         " lies inside a triangle, must be a vertex if symmetric");
+    rows.push_back(corners[0]);
+    bool is_active = false;
+    for (int k = 0; k < 3; ++k) is_active |= state.isActive(corners[k]) && weights[k] > 0;
+    if (!is_active) continue;
+    DistanceReport one;
+    distance.col(static_cast<Eigen::Index>(s)) = queryAt({sources[s]}, &one, progress);
+    made.add(one);
+  }
+  if (symmetric) {
+    const Eigen::MatrixXd between = distance(rows, Eigen::all);
+    distance(rows, Eigen::all) = (between + between.transpose()) / 2;
+    for (std::size_t i = 0; i < state.representative.size(); ++i)
+      distance.row(static_cast<Eigen::Index>(i)) = distance.row(state.representative[i]);
+  }
+  if (report != nullptr) *report = made;
+  return distance;
+}
+
 SurfacePoint SurfacePoint::inFace(const Points& points, const Triangles& triangles, int face,
                                   const std::array<double, 3>& barycentric) {
   const std::string name = "SurfacePoint::inFace: ";
