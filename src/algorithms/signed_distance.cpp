@@ -294,7 +294,8 @@ VectorXd SignedDistanceSolver::queryAt(const std::vector<SurfaceCurve>& curves, 
   if (state.heat && !points.empty())
     throw InvalidInput(name + "points has " + std::to_string(points.size()) +
                        " places, must be empty unless method is marching");
-  if (curves.empty() && points.empty()) throw InvalidInput(name + "no curve and no point is given, must be at least one");
+  if (curves.empty() && points.empty())
+    throw InvalidInput(name + "no curve and no point is given, must be at least one");
   const Curves known = state.resolved(curves);
   const std::vector<CurvePlace> places = state.placesOf(points);
   if (curves.empty() && places.empty())

@@ -10,7 +10,7 @@
 #include "base/stage_clock.h"
 #include "bench/distance_tables.h"
 #include "shapes/shapes.h"
-#include "support/slices.h"
+#include "shapes/slices.h"
 #include "tufted/io/read.h"
 #include "tufted/tufted.h"
 
@@ -44,7 +44,7 @@ void printExact(const std::string& name, const shapes::Mesh& mesh,
   const Frames frames = meshFrames(mesh.points, mesh.triangles);
   VectorXd exact(mesh.points.rows());
   for (Eigen::Index i = 0; i < exact.size(); ++i) exact[i] = distance(mesh.points.row(i));
-  const std::vector<SurfaceCurve> curves = support::slices(mesh.points, mesh.triangles, exact);
+  const std::vector<SurfaceCurve> curves = shapes::slices(mesh.points, mesh.triangles, exact);
   std::printf("| %s | %d ", name.c_str(), static_cast<int>(exact.size()));
   for (const DistanceMethod method : {DistanceMethod::marching, DistanceMethod::heat}) {
     const VectorXd found = SignedDistanceSolver(laplacian, frames, {.method = method}).queryAt(curves);
@@ -69,7 +69,7 @@ void printReal(const char* name) {
   const Frames frames = meshFrames(mesh.points, mesh.triangles);
   const Eigen::VectorXd height = mesh.points.col(1);
   std::vector<SurfaceCurve> curves =
-      support::slices(mesh.points, mesh.triangles, height.array() - (height.minCoeff() + height.maxCoeff()) / 2);
+      shapes::slices(mesh.points, mesh.triangles, height.array() - (height.minCoeff() + height.maxCoeff()) / 2);
   const auto longest =
       std::max_element(curves.begin(), curves.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
   const SurfaceCurve closed = *longest, open(closed.begin(), closed.begin() + std::ssize(closed) / 3);

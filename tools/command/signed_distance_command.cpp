@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -128,6 +129,7 @@ Results compute(Settings& settings, Operator& source) {
   results.report["curve"] = {{"points", made.curve_points}, {"length", made.curve_length}};
   results.summary.add(settings.curves.size() > 1 ? "curves" : "curve", "%lld points, length %.6g",
                       static_cast<long long>(made.curve_points), made.curve_length);
+  made.heat.residual = std::max(made.heat.residual, made.residual);
   if (settings.isHeat())
     addReport(made.heat, solver.report(), results);
   else

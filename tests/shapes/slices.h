@@ -8,7 +8,7 @@
 
 #include "tufted/signed_distance.h"
 
-namespace tufted::support {
+namespace tufted::shapes {
 
 /// The curves through triangles on which a field changes its sign, with positive values on the left, closed or from rim
 /// to rim.
@@ -58,4 +58,4 @@ inline std::vector<SurfaceCurve> slices(const Points& points, const Triangles& t
   return curves;
 }
 
-}  // namespace tufted::support
+}  // namespace tufted::shapes
