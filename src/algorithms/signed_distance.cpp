@@ -74,7 +74,8 @@ struct SignedDistanceSolver::State {
   Curves resolved(const std::vector<SurfaceCurve>& curves) const;
   /// The direction to the left of a segment in the frame of a point, 0 if it is perpendicular to the tangent plane.
   Eigen::Vector2d leftOf(const CurveSegment& segment, int point) const;
-  /// The length of the curves at each point, with a column for each curve on each component.
+  /// The length of the curves at each point over that of the longest segment, with a column for each curve on each
+  /// component.
   SparseMatrix lengthsOf(const std::vector<CurveSegment>& segments) const;
   /// At both ends of each segment its normal to the left flows in, times half its length.
   VectorXd byHeat(const std::vector<CurveSegment>& segments, const SparseMatrix& lengths, const Progress& progress,
@@ -163,12 +164,14 @@ Curves SignedDistanceSolver::State::resolved(const std::vector<SurfaceCurve>& cu
 SparseMatrix SignedDistanceSolver::State::lengthsOf(const std::vector<CurveSegment>& segments) const {
   std::map<std::pair<int, int>, int> column;  // of each curve on each component
   std::vector<Eigen::Triplet<double>> entries;
+  double longest = 0;
+  for (const CurveSegment& segment : segments) longest = std::max(longest, segment.length);
   for (const CurveSegment& segment : segments) {
     const int c = column.try_emplace({componentOf(segment.from), segment.curve}, std::ssize(column)).first->second;
     for (const CurvePlace* end : {&segment.from, &segment.to})
       for (int k = 0; k < 3; ++k)
         if (end->point.weights[k] > 0)
-          entries.emplace_back(end->point.corners[k], c, end->point.weights[k] * segment.length / 2);
+          entries.emplace_back(end->point.corners[k], c, end->point.weights[k] * (segment.length / longest) / 2);
   }
   SparseMatrix lengths(L.rows(), std::ssize(column));
   lengths.setFromTriplets(entries.begin(), entries.end());

@@ -25,7 +25,7 @@ constexpr const char* description = "Compute the distance from curves on the sur
 constexpr const char* footer =
     R"(Examples:
   tufted signed-distance mesh.off --curve curve.txt --out signed
-  tufted signed-distance mesh.off --curve curve.txt --source 7 --method marching --out signed
+  tufted signed-distance mesh.off --curve curve.txt --source 3 --method marching --out signed
 
 --curve is a text file of the places along a curve in order, a line each: INDEX of a point, or FACE A B C, a place
 inside triangle FACE of a mesh with barycentric coordinates A, B, C. A closed curve ends with its first place. Distances
