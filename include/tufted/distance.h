@@ -171,6 +171,15 @@ class DistanceSolver {
   NearestSources nearest(const std::vector<SurfacePoint>& sources, DistanceReport* report = nullptr,
                          const Progress& progress = {}) const;
 
+  /// Computes the distances from each of some sources.
+  /// @param symmetric whether the distances between sources, found from either end, are replaced by the mean of both.
+  /// They differ by up to .3 % of the largest distance.
+  /// @return N x S, a column for each source; infinite for a source on no component. Values and errors are otherwise
+  /// those of queryAt().
+  /// @throws InvalidInput also for a source inside a triangle if `symmetric`
+  Eigen::MatrixXd matrix(const std::vector<SurfacePoint>& sources, bool symmetric = false,
+                         DistanceReport* report = nullptr, const Progress& progress = {}) const;
+
   /// The time step t, in the points' unit squared, of the component with the most points; 0 for marching.
   double timeStep() const;
 

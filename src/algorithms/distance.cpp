@@ -38,27 +38,6 @@ void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) 
   checkCover(constructor, laplacian);
 }
 
-void checkSource(const SurfacePoint& source, int n) {
-  const std::string name = std::string(query_name) + ": ";
-  for (int k = 0; k < 3; ++k) {
-    if (source.corners[k] < 0 || source.corners[k] >= n) {
-      throw InvalidInput(name + "source " + std::to_string(source.corners[k]) + ", must lie in [0, " +
-                         std::to_string(n) + ")");
-    }
-    if (!(source.weights[k] >= 0 && source.weights[k] <= 1)) {
-      throw InvalidInput(name + "weight of a source = " + numberText(source.weights[k]) + ", must lie in [0, 1]");
-    }
-    if (!(source.distances[k] >= 0 && std::isfinite(source.distances[k]))) {
-      throw InvalidInput(name + "distance of a source from a corner = " + numberText(source.distances[k]) +
-                         ", must be finite and at least 0");
-    }
-    if (!(source.sides[k] >= 0 && std::isfinite(source.sides[k]))) {
-      throw InvalidInput(name + "side of a source's triangle = " + numberText(source.sides[k]) +
-                         ", must be finite and at least 0");
-    }
-  }
-}
-
 }  // namespace
 
 struct DistanceSolver::State {
@@ -126,7 +105,7 @@ std::vector<SurfacePoint> DistanceSolver::State::checked(const std::vector<Surfa
   std::vector<SurfacePoint> found = sources;
   bool has_one = false;
   for (SurfacePoint& source : found) {
-    checkSource(source, static_cast<int>(representative.size()));
+    checkPlace(query_name, source, static_cast<int>(representative.size()));
     for (int k = 0; k < 3; ++k) {
       source.corners[k] = representative[source.corners[k]];
       has_one |= isActive(source.corners[k]) && source.weights[k] > 0;
@@ -217,6 +196,36 @@ NearestSources DistanceSolver::nearest(const std::vector<SurfacePoint>& sources,
   made.seconds = watch.seconds();
   if (report != nullptr) *report = made;
   return found;
+}
+
+Eigen::MatrixXd DistanceSolver::matrix(const std::vector<SurfacePoint>& sources, bool symmetric, DistanceReport* report,
+                                       const Progress& progress) const {
+  const State& state = *state_;
+  const std::vector<SurfacePoint> known = state.checked(sources);
+  DistanceReport made;
+  Eigen::MatrixXd distance = Eigen::MatrixXd::Constant(std::ssize(state.representative), std::ssize(sources), infinity);
+  std::vector<int> rows;
+  for (std::size_t s = 0; s < known.size(); ++s) {
+    const auto& [corners, weights, distances, sides] = known[s];
+    if (symmetric && (corners[0] != corners[1] || corners[1] != corners[2]))
+      throw InvalidInput("DistanceSolver::matrix: source " + std::to_string(s) +
+                         " lies inside a triangle, must be a vertex if symmetric");
+    rows.push_back(corners[0]);
+    bool is_active = false;
+    for (int k = 0; k < 3; ++k) is_active |= state.isActive(corners[k]) && weights[k] > 0;
+    if (!is_active) continue;
+    DistanceReport one;
+    distance.col(static_cast<Eigen::Index>(s)) = queryAt({sources[s]}, &one, progress);
+    made.add(one);
+  }
+  if (symmetric) {
+    const Eigen::MatrixXd between = distance(rows, Eigen::all);
+    distance(rows, Eigen::all) = (between + between.transpose()) / 2;
+    for (std::size_t i = 0; i < state.representative.size(); ++i)
+      distance.row(static_cast<Eigen::Index>(i)) = distance.row(state.representative[i]);
+  }
+  if (report != nullptr) *report = made;
+  return distance;
 }
 
 SurfacePoint SurfacePoint::inFace(const Points& points, const Triangles& triangles, int face,

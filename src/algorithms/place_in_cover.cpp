@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
 
 #include "algorithms/vertex_view.h"
+#include "base/number_text.h"
 #include "cover/geometry.h"
 #include "tufted/errors.h"
 
@@ -93,6 +95,27 @@ std::vector<PlaceInCover> placesOf(const IntrinsicTriangulation& cover, const We
 }
 
 }  // namespace
+
+void checkPlace(const std::string& function, const SurfacePoint& source, int n) {
+  const std::string name = function + ": ";
+  for (int k = 0; k < 3; ++k) {
+    if (source.corners[k] < 0 || source.corners[k] >= n) {
+      throw InvalidInput(name + "source " + std::to_string(source.corners[k]) + ", must lie in [0, " +
+                         std::to_string(n) + ")");
+    }
+    if (!(source.weights[k] >= 0 && source.weights[k] <= 1)) {
+      throw InvalidInput(name + "weight of a source = " + numberText(source.weights[k]) + ", must lie in [0, 1]");
+    }
+    if (!(source.distances[k] >= 0 && std::isfinite(source.distances[k]))) {
+      throw InvalidInput(name + "distance of a source from a corner = " + numberText(source.distances[k]) +
+                         ", must be finite and at least 0");
+    }
+    if (!(source.sides[k] >= 0 && std::isfinite(source.sides[k]))) {
+      throw InvalidInput(name + "side of a source's triangle = " + numberText(source.sides[k]) +
+                         ", must be finite and at least 0");
+    }
+  }
+}
 
 std::vector<PlaceInCover> placesInCover(const std::string& function, const CoverSource& source_of_cover,
                                         const std::vector<SurfacePoint>& sources) {

@@ -15,6 +15,11 @@ struct PlaceInCover {
   SurfacePoint point;  ///< the source by the corners of that face, in their order
 };
 
+/// Checks the numbers of a source on a surface of n points.
+/// @param function named in errors
+/// @throws InvalidInput for a corner, weight or length out of range
+void checkPlace(const std::string& function, const SurfacePoint& source, int n);
+
 /// The places of sources in a cover, where flips may have removed the triangles around them (docs/algorithm.md, section
 /// 18). A point inside a triangle has one place on the front and one on the back.
 /// @param cover with corners in range; asked for only if a source lies inside a triangle

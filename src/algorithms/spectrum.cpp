@@ -38,6 +38,9 @@ constexpr Index small_space = 150;
 /// Dense matrices are also used if more than this share of all pairs is wanted. On tori they are faster from 0.15 at
 /// 200 points, 0.25 at 500 and 0.35 at 2,000.
 constexpr double large_share = 0.3;
+/// Dense matrices take about this many seconds times the cube of the points: 1.6e-9 to 7.7e-9 on tori of 600 to 2,400
+/// points.
+constexpr double dense_seconds = 4e-9;
 
 void checkLaplacian(const std::string& function, const Laplacian& laplacian) {
   checkSizes(function, laplacian);
@@ -175,7 +178,9 @@ void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Ind
   }
   std::optional<Eigenpairs> pairs;
   if (isForDense(problem, wanted, options)) {
-    workers.report("dense", 0);
+    const double points = static_cast<double>(problem.usable + std::ssize(problem.massless));
+    const long seconds = std::lround(dense_seconds * points * points * points);
+    workers.report(seconds > 0 ? "dense, about " + std::to_string(seconds) + " s" : "dense", 0);
     pairs = densePairs(problem, wanted);
     spectrum.report.counted = pairs.has_value();
   }

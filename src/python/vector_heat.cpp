@@ -1,6 +1,11 @@
 // Values and vectors carried along the surface, and the logarithmic map.
 #include "tufted/vector_heat.h"
 
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "python/arrays.h"
 #include "python/module.h"
 #include "python/running.h"
@@ -34,6 +39,21 @@ auto withFrames() {
   });
 }
 
+SignedDistanceSolver signedSolverOf(const Laplacian& laplacian, Points normals, Points tangents,
+                                    const std::string& method, std::optional<int> split, double time_step,
+                                    const Solving& solving, const py::object& progress) {
+  const Frames frames = framesFrom(std::move(normals), std::move(tangents));
+  SignedDistanceOptions options = {
+      .method = chosen<DistanceMethod>("signed_distance: method", method,
+                                       {{"marching", DistanceMethod::marching}, {"heat", DistanceMethod::heat}}),
+      .split = split,
+      .time_step = time_step};
+  return run(progress, [&](const Progress& called) {
+    options.solver = solving.options(called);
+    return SignedDistanceSolver(laplacian, frames, options);
+  });
+}
+
 }  // namespace
 
 void addVectorHeat(py::module_& module) {
@@ -63,10 +83,10 @@ void addVectorHeat(py::module_& module) {
              return py::make_tuple(std::move(map.coordinates), map.first, map.second);
            });
   py::class_<SignedDistanceSolver>(module, "SignedDistanceSolver")
-      .def(withFrames<SignedDistanceSolver>())
-      .def("query", [](const SignedDistanceSolver& solver, const Integers& curve, const py::object& progress) {
-        const std::vector<int> indices = indicesOf(curve);
-        return run(progress, [&](const Progress& called) { return solver.query(indices, nullptr, called); });
+      .def(py::init(&signedSolverOf))
+      .def("query", [](const SignedDistanceSolver& solver, const std::vector<SurfaceCurve>& curves,
+                       const std::vector<SurfacePoint>& points, const py::object& progress) {
+        return run(progress, [&](const Progress& called) { return solver.queryAt(curves, points, nullptr, called); });
       });
 }
 

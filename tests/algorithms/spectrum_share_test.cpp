@@ -140,6 +140,16 @@ TEST(SpectrumOfMost, DoesNotTakeMoreMemoryForDenseMatricesThanItMay) {
   EXPECT_EQ(spectrum(laplacian, 1).report.method, "");
 }
 
+TEST(SpectrumOfMost, SaysHowLongDenseMatricesWillTake) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(700).points);
+  std::vector<std::string> stages;
+  spectrum(laplacian, 300, {.progress = [&](std::string_view stage, double) {
+             if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+             return true;
+           }});
+  EXPECT_EQ(std::count(stages.begin(), stages.end(), "dense, about 1 s"), 1);
+}
+
 TEST(SpectrumOfNearlyDisconnectedSurfaces, SaysSoWhereItsResidualIsRounding) {
   // Two grids of as many points, joined by w: the first positive eigenvalue is 2 w over their number, to first order.
   for (const int side : {10, 30}) {

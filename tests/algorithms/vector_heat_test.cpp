@@ -256,7 +256,7 @@ TEST(VectorHeat, RefusesWhatDoesNotFit) {
     EXPECT_TRUE(says(refusal([&] { TransportSolver(laplacian, options); }))) << step;
     EXPECT_TRUE(says(refusal([&] { ExtensionSolver(laplacian, options); }))) << step;
     EXPECT_TRUE(says(refusal([&] { LogMapSolver(laplacian, options); }))) << step;
-    EXPECT_TRUE(says(refusal([&] { SignedDistanceSolver(laplacian, options); }))) << step;
+    EXPECT_TRUE(says(refusal([&] { SignedDistanceSolver(laplacian, {.time_step = step}); }))) << step;
     EXPECT_TRUE(says(refusal([&] { DistanceSolver(laplacian, {.method = DistanceMethod::heat, .time_step = step}); })))
         << step;
   }

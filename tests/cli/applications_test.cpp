@@ -58,6 +58,11 @@ TEST_F(ApplicationCommands, DistanceStopsAtARadiusLabelsAndFillsMatrices) {
   const std::vector<std::int32_t> label = values<std::int32_t>("part/labels.npy");
   ASSERT_EQ(label.size(), 500u);
   ASSERT_EQ(matrix.size(), 1000u);
+  run({"distance", cloud, "--source", "3,7", "--matrix", "--symmetric", "--out", in("symmetric")});
+  const std::vector<double> symmetric = values("symmetric/distance.npy");
+  EXPECT_EQ(symmetric[2 * 3 + 1], symmetric[2 * 7]);
+  EXPECT_EQ(symmetric[2 * 3 + 1], (matrix[2 * 3 + 1] + matrix[2 * 7]) / 2);
+  EXPECT_EQ(symmetric[0], matrix[0]);
   for (std::size_t i = 0; i < 500; ++i) {
     EXPECT_EQ(part[i], whole[i] <= 0.5 ? whole[i] : HUGE_VAL) << i;
     ASSERT_EQ(label[i] < 0, std::isinf(part[i])) << i;
@@ -76,6 +81,7 @@ TEST_F(ApplicationCommands, DistanceStopsAtARadiusLabelsAndFillsMatrices) {
   expectRefusal({"distance", cloud, "--source", "0", "--split", "1", "--method", "heat"},
                 "--split applies to --method marching");
   expectRefusal({"distance", cloud, "--source", "0", "--labels", "--matrix"}, "--matrix");
+  expectRefusal({"distance", cloud, "--source", "0", "--symmetric"}, "--symmetric requires --matrix");
 }
 
 TEST_F(ApplicationCommands, DistanceReportsTheGreatestResidualOfAMatrix) {

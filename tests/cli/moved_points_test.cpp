@@ -243,12 +243,29 @@ TEST_F(MovedPoints, SignedDistanceIsPositiveToTheLeft) {
   EXPECT_NEAR(distance[0], 0.5, 1e-6);
   EXPECT_NEAR(distance[80], -0.5, 1e-6);
   EXPECT_NEAR(report("out")["curve"]["length"], 1, 1e-12);
+  // Also from a second curve, one of whose places lies in a triangle, and from a point.
+  dir_.write("rim.txt", "0 1 0 0\n8\n");
+  run({"signed-distance", in("flat.off"), "--curve", in("curve.txt"), "--curve", in("rim.txt"), "--method", "marching",
+       "--near", "1,1,0", "--out", in("out")});
+  const std::vector<double> several = values("out/distance.npy");
+  EXPECT_EQ(several[80], 0);
+  EXPECT_EQ(report("out")["method"], "marching");
+  EXPECT_NEAR(several[3 * 9 + 4], 0.125, 1e-6);
+  EXPECT_NEAR(several[6 * 9 + 4], -0.25, 1e-6);
   dir_.write("bad.txt", "0\n1 2\n");
-  expectRefusal({"signed-distance", open_, "--curve", in("bad.txt")}, "line 2: is not INDEX", 1);
+  expectRefusal({"signed-distance", open_, "--curve", in("bad.txt")}, "line 2: is neither INDEX nor FACE A B C", 1);
   dir_.write("bad.txt", "0\n");
   expectRefusal({"signed-distance", open_, "--curve", in("bad.txt")}, "has 1 points, must have at least 2", 1);
   dir_.write("bad.txt", "0\n0\n");
   expectRefusal({"signed-distance", open_, "--curve", in("bad.txt")}, "must have at least two on one component", 1);
+  dir_.write("bad.txt", "999 1 0 0\n0\n");
+  expectRefusal({"signed-distance", open_, "--curve", in("bad.txt")}, "line 1: face = 999, must lie in");
+  expectRefusal({"signed-distance", open_}, "no curve is given, must be at least one by --curve");
+  expectRefusal({"signed-distance", open_, "--curve", in("curve.txt"), "--source", "3"},
+                "--source, --near, --sources and --face apply to --method marching");
+  expectRefusal({"signed-distance", open_, "--curve", in("curve.txt"), "--split", "1"}, "--split applies to --method");
+  expectRefusal({"signed-distance", open_, "--curve", in("curve.txt"), "--method", "marching", "--time-step", "2"},
+                "--time-step applies to --method heat");
 }
 
 TEST_F(MovedPoints, WeightsOfHandlesHaveTheSumOne) {

@@ -46,6 +46,7 @@ TEST_F(OperatorFolder, GivesEveryCommandTheBitsOfTheFile) {
   all.push_back({"distance", "--source", "0", "--within", "0.4"});
   all.push_back({"curvature", "--method", "laplacian"});
   all.push_back({"signed-distance", "--curve", dir_.write("curve.txt", "0\n5\n9\n")});
+  all.push_back({"signed-distance", "--curve", in("curve.txt"), "--method", "marching"});
   for (const std::vector<std::string>& parts : {std::vector<std::string>{}, {"--component", "0"}}) {
     for (std::vector<std::string> words : all) {
       words.insert(words.end(), parts.begin(), parts.end());

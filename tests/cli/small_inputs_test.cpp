@@ -22,6 +22,7 @@ class SmallInputs : public Subcommands {
                            {"distance", "--source", "0", "--method", "heat"},
                            {"weights", "--handles", dir_.write("handles.txt", "0\n1\n")},
                            {"signed-distance", "--curve", in("handles.txt")},
+                           {"signed-distance", "--curve", in("handles.txt"), "--method", "marching"},
                            {"smooth", "--method", "taubin"},
                            {"deform", "--handles", dir_.write("targets.txt", "0 0 0 0\n1 1 1 1\n")}});
     if (is_open) all.insert(all.end(), {{"parameterize"}, {"parameterize", "--method", "harmonic"}, {"minimal"}});

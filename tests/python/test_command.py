@@ -117,6 +117,10 @@ def test_signed_distance(tmp_path):
     (tmp_path / "curve.txt").write_text("\n".join(map(str, curve)))
     run("signed-distance", file, "--curve", tmp_path / "curve.txt", "--out", tmp_path)
     np.testing.assert_array_equal(np.load(tmp_path / "distance.npy"), surface.signed_distance(curve))
+    run("signed-distance", file, "--curve", tmp_path / "curve.txt", "--method", "marching", "--source", "1", "--out",
+        tmp_path)
+    np.testing.assert_array_equal(np.load(tmp_path / "distance.npy"),
+                                  surface.signed_distance(curve, sources=1, method="marching"))
 
 
 def test_weights(tmp_path):

@@ -170,9 +170,10 @@ def test_distances_from_a_curve_through_faces_and_edges(ball):
     marching = pp3d.MeshFastMarchingDistanceSolver(V, F)
     np.testing.assert_allclose(marching.compute_distance([curve]), abs(latitude), atol=0.01)
     signed = pp3d.MeshSignedHeatSolver(V, F).compute_distance([curve])
-    far = abs(latitude) > 0.1  # next to the curve the sign is that of its nearest corners
     side = np.sign(signed[V[:, 2].argmax()])
-    np.testing.assert_allclose(side * signed[far], latitude[far], atol=0.01)
+    away = abs(V[:, 2]) < 0.98  # at the poles, where fronts meet, heat rounds the distance off
+    np.testing.assert_allclose(side * signed[away], latitude[away], atol=0.03)
+    np.testing.assert_allclose(side * marching.compute_distance([curve], sign=True), latitude, atol=0.01)
     middle = [(0, [1 / 3, 1 / 3]), (0, [1 / 3, 1 / 3, 1 / 3])]
     center = V[F[0]].mean(axis=0)
     np.testing.assert_allclose(marching.compute_distance([middle[:1]]),

@@ -61,3 +61,41 @@ def test_signed_distance_from_a_line():
     line = np.arange(6 * 12, 7 * 12)
     found = tufted.Mesh(points, faces).signed_distance(line)
     np.testing.assert_allclose(found, points[line[0], 0] - points[:, 0], atol=1e-6)
+
+
+def test_signed_distances_from_several_curves_places_and_points():
+    points, faces = grid(12)
+    mesh = tufted.Mesh(points, faces)
+    x, lines = points[:, 0], [np.arange(12 * i, 12 * (i + 1)) for i in (2, 9)]
+    low, high = x[lines[0][0]], x[lines[1][0]]
+    for method in ("heat", "marching"):
+        # The strip between the lines is to the right of the first and, turned, to the right of the second.
+        between = mesh.signed_distance([lines[0], lines[1][::-1]], method=method)
+        np.testing.assert_allclose(between, np.maximum(low - x, x - high), atol=1e-6 if method == "marching" else 0.06)
+        # Places at corners of faces are the vertices themselves.
+        places = [(int(np.flatnonzero((faces == v).any(axis=1))[0]), v) for v in lines[0]]
+        places = [(face, (faces[face] == v).astype(float)) for face, v in places]
+        one = mesh.signed_distance(lines[0], method=method)
+        np.testing.assert_array_equal(mesh.signed_distance(places, method=method), one)
+        np.testing.assert_array_equal(mesh.signed_distance([*lines[0][:5], *places[5:]], method=method), one)
+        np.testing.assert_array_equal(mesh.signed_distance([places], method=method), one)
+    alone = mesh.signed_distance(sources=[5], faces=[7], barycentric=[[1, 1, 1]], method="marching")
+    np.testing.assert_array_equal(alone, mesh.distance([5], faces=[7], barycentric=[[1, 1, 1]]))
+    corner = mesh.signed_distance(lines[1], sources=0, method="marching")
+    assert corner[0] == 0 and corner[1] > 0 and corner[-1] < 0
+
+
+def test_distances_between_landmarks_are_symmetric_on_request():
+    points = np.random.default_rng(4).normal(size=(800, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    points[31] = points[30]  # coincides
+    cloud = tufted.PointCloud(points)
+    landmarks = [3, 31, 500, 3]
+    found, plain = cloud.distance_matrix(landmarks, symmetric=True), cloud.distance_matrix(landmarks)
+    between = found[landmarks]
+    assert 0 < abs(plain[landmarks] - plain[landmarks].T).max() < 0.003 * plain.max()
+    np.testing.assert_array_equal(between, between.T)
+    np.testing.assert_allclose(between, (plain[landmarks] + plain[landmarks].T) / 2, rtol=1e-15)
+    np.testing.assert_array_equal(found[30], found[31])
+    others = np.setdiff1d(np.arange(800), [*landmarks, 30])
+    np.testing.assert_array_equal(found[others], plain[others])

@@ -109,7 +109,13 @@ inline std::vector<Algorithm> algorithms(int threads = 0, double unit = 1) {
           {"signed distance", true, 1, NAN,
            [=](const Laplacian& laplacian, const Points&) -> MatrixXd {
              const Frames frames = orientedFrames(laplacian, {.threads = threads});
-             return SignedDistanceSolver(laplacian, frames, vector_heat).query({3, 40, 50, 3}).cwiseAbs();
+             return SignedDistanceSolver(laplacian, frames, {.solver = solver}).query({3, 40, 50, 3}).cwiseAbs();
+           }},
+          {"signed distance by marching", true, 1, NAN,
+           [=](const Laplacian& laplacian, const Points&) -> MatrixXd {
+             const Frames frames = orientedFrames(laplacian, {.threads = threads});
+             const SignedDistanceOptions marching = {.method = DistanceMethod::marching, .solver = solver};
+             return SignedDistanceSolver(laplacian, frames, marching).query({3, 40, 50, 3}).cwiseAbs();
            }},
           {"harmonic", true, 0, NAN,
            [=](const Laplacian& laplacian, const Points&) { return harmonic(laplacian, pins, solver); }},

@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
                                                     {"sphere", bench::printSphere},
                                                     {"torus", bench::printTorus},
                                                     {"symmetry", bench::printSymmetry},
+                                                    {"signed", bench::printSigned},
                                                     {"query", bench::printQuery},
                                                     {"obtuse", printObtuse},
                                                     {"green", printGreen},

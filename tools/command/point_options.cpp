@@ -152,20 +152,26 @@ std::vector<Place> NamedPoints::places(const Operator& source) const {
   return found;
 }
 
-std::vector<tufted::SurfacePoint> pointsInFaces(const std::vector<std::string>& faces, const Operator& source) {
-  if (!faces.empty() && !source.geometry.is_mesh)
-    throw tufted::InvalidInput("--face applies to meshes, and " + source.name +
+void requireMesh(const std::string& name, const Operator& source) {
+  if (!source.geometry.is_mesh)
+    throw tufted::InvalidInput(name + " applies to meshes, and " + source.name +
                                (source.geometry.points.rows() > 0 ? " is a cloud" : " has no points"));
+}
+
+tufted::SurfacePoint pointInFace(const std::vector<double>& numbers, const std::string& name, const Operator& source) {
+  const bool valid = numbers.size() == 4 && numbers[0] == std::floor(numbers[0]) && std::abs(numbers[0]) < 2e9;
+  if (!valid) throw tufted::InvalidInput(name + " is not FACE,A,B,C");
+  return forOption(name, [&] {
+    return tufted::SurfacePoint::inFace(source.geometry.points, source.geometry.triangles, static_cast<int>(numbers[0]),
+                                        {numbers[1], numbers[2], numbers[3]});
+  });
+}
+
+std::vector<tufted::SurfacePoint> pointsInFaces(const std::vector<std::string>& faces, const Operator& source) {
+  if (!faces.empty()) requireMesh("--face", source);
   std::vector<tufted::SurfacePoint> points;
-  for (const std::string& text : faces) {
-    const std::vector<double> numbers = parseNumbers(text, "--face");
-    const bool valid = numbers.size() == 4 && numbers[0] == std::floor(numbers[0]) && std::abs(numbers[0]) < 2e9;
-    if (!valid) throw tufted::InvalidInput("--face " + text + " is not FACE,A,B,C");
-    points.push_back(forOption("--face " + text, [&] {
-      return tufted::SurfacePoint::inFace(source.geometry.points, source.geometry.triangles,
-                                          static_cast<int>(numbers[0]), {numbers[1], numbers[2], numbers[3]});
-    }));
-  }
+  for (const std::string& text : faces)
+    points.push_back(pointInFace(parseNumbers(text, "--face"), "--face " + text, source));
   return points;
 }
 

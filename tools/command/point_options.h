@@ -58,6 +58,15 @@ struct NamedPoints {
   std::vector<Place> places(const Operator& source) const;
 };
 
+/// @throws InvalidInput naming an option or line that gives a triangle, unless the source is a mesh
+void requireMesh(const std::string& name, const Operator& source);
+
+/// A point inside a triangle of a mesh.
+/// @param numbers FACE, A, B, C
+/// @param name option or line that gives them, for messages
+/// @throws InvalidInput for other numbers
+tufted::SurfacePoint pointInFace(const std::vector<double>& numbers, const std::string& name, const Operator& source);
+
 /// The points that --face names.
 /// @throws InvalidInput for a cloud, or for what is not FACE,A,B,C with a triangle and barycentric coordinates
 std::vector<tufted::SurfacePoint> pointsInFaces(const std::vector<std::string>& faces, const Operator& source);

@@ -24,6 +24,12 @@ def _in_threads(call, count, threads):
         pool.shutdown(cancel_futures=True)
 
 
+def _is_place(item):
+    """Whether an item of a curve is a place, an index or (face, barycentric coordinates), and not a curve."""
+    return not hasattr(item, "__len__") or (
+        len(item) == 2 and not hasattr(item[0], "__len__") and hasattr(item[1], "__len__"))
+
+
 class Distances:
     def distance(self, sources=(), *, faces=None, barycentric=None, method="marching", split=None, maximum=None,
                  time_step=None, unit=None, open_boundary=None, progress=None):
@@ -62,14 +68,15 @@ class Distances:
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.nearest(places, check.callback("nearest_source", progress))
 
-    def distance_matrix(self, sources, *, method="marching", split=None, maximum=None, time_step=None, unit=None,
-                        open_boundary=None, progress=None):
+    def distance_matrix(self, sources, *, symmetric=False, method="marching", split=None, maximum=None, time_step=None,
+                        unit=None, open_boundary=None, progress=None):
         """The geodesic distance of every point from each of some sources, as `tufted distance --matrix`: the sources
         are marched from at once on as many threads as the surface may use.
 
         sources: S indices. method, split, maximum, time_step, unit, open_boundary: as in distance().
-        Returns N x S, length. A distance from i to j differs from that from j to i by some thousandths of the largest
-        one; where that matters take the mean, d = distance_matrix(s)[s]; (d + d.T) / 2.
+        symmetric: whether the distances between sources, found from either end, are replaced by the mean of both. They
+        differ by up to .3 % of the largest distance.
+        Returns N x S, length.
         """
         where = check.indices("distance_matrix", "sources", sources, len(self))
         progress = check.callback("distance_matrix", progress)
@@ -83,6 +90,11 @@ class Distances:
         with check.named("distance_matrix"):
             for done, _ in enumerate(_in_threads(fill, where.size, self._solving["threads"]), 1):
                 check.report("distance_matrix", progress, done / where.size)
+        if symmetric:
+            rows = self.representative[where]
+            between = found[rows]
+            found[rows] = (between + between.T) / 2
+            found = found[self.representative]
         return found
 
     def points_within(self, sources, radius, *, split=None, progress=None):
@@ -245,20 +257,52 @@ class Distances:
         coordinates, first, second = solver.query(int(where[0]), axis, progress)
         return LogMap(coordinates, np.vstack([first, second]))
 
-    def signed_distance(self, curve, *, time_step=4.0, progress=None):
-        """The distance from a curve on the surface, positive to its left as seen from the side that normals point to.
+    def signed_distance(self, curve=(), *, sources=(), faces=None, barycentric=None, method="heat", split=None,
+                        time_step=None, progress=None):
+        """The distance from curves on the surface, positive to their left as seen from the side that normals point to.
 
-        curve: indices of points in order, the first one again at the end if the curve is closed. It may have gaps,
-        across which the distance continues smoothly.
-        time_step: as in extend().
-        Returns N values, length; NaN on components without a part of the curve.
+        curve: places in order, the first one again at the end if the curve is closed; or several such curves. A place
+        is an index or, inside a triangle of a mesh, a pair (face, (a, b, c)) with barycentric coordinates.
+        method: "heat": all curves count as pieces of one, whose left sides should agree. Across gaps and beyond ends
+        the distance continues smoothly. "marching": the length of a shortest path to the nearest curve, negative if it
+        leaves the curve to the right.
+        sources, faces, barycentric: of marching: further sources, as in distance(). Distances from them are positive.
+        split: of marching, as in distance(). time_step: of heat, as in extend(); None: 4.
+        Returns N values, length; NaN on components without a source.
+
+        >>> mesh = tufted.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> middle = [(1, (0.5, 0, 0.5)), (0, (0.5, 0, 0.5)), (0, (0, 0.5, 0.5))]
+        >>> mesh.signed_distance(middle, method="marching")
+        array([-0.5, -0.5,  0.5,  0.5])
         """
-        where = check.indices("signed_distance", "curve", curve, len(self))
-        time_step = check.number("signed_distance", "time_step", time_step)
-        progress = check.callback("signed_distance", progress)
-        solver = self._keep("signed_distance", lambda: _tufted.SignedDistanceSolver(
-            self._laplacian, *self._signed_frames(), time_step, self._solver(), progress), time_step)
-        return solver.query(where, progress)
+        name = "signed_distance"
+        if method == "marching" and time_step is not None:
+            raise InvalidInput(f'{name}: time_step = {time_step!r}, must be None unless method is "heat"')
+        if method == "heat" and split is not None:
+            raise InvalidInput(f'{name}: split = {split!r}, must be None unless method is "marching"')
+        if method == "marching":
+            self._need_cover(name)
+        settings = (method, None if split is None else check.whole(name, "split", split, 0),
+                    4.0 if time_step is None else check.number(name, "time_step", time_step))
+        progress = check.callback(name, progress)
+        curve = curve if hasattr(curve, "__len__") else [curve]
+        several = [curve] if all(_is_place(place) for place in curve) else curve
+        with check.named(name, sources="curve", faces="curve", points="sources"):
+            curves = [self._curve(name, one) for one in several] if len(curve) else []
+        with check.named(name, points="sources"):
+            points = self._places(name, sources, faces, barycentric) if faces is not None or np.size(sources) else []
+            solver = self._keep(name, lambda: _tufted.SignedDistanceSolver(
+                self._laplacian, *self._signed_frames(), *settings, self._solver(), progress), settings)
+            return solver.query(curves, points, progress)
+
+    def _curve(self, function, places):
+        """The places of a curve, in order."""
+        in_face = [hasattr(place, "__len__") for place in places]
+        inside = [place for place, has_face in zip(places, in_face) if has_face]
+        found = self._places(function, [place for place, has_face in zip(places, in_face) if not has_face],
+                             [face for face, _ in inside] if inside else None, [weights for _, weights in inside])
+        order = np.argsort(in_face, kind="stable")  # vertices come first
+        return [found[k] for k in np.argsort(order)]
 
     def _joined_faces(self, function):
         """_surface_faces() with coincident points replaced by their representatives."""

@@ -75,14 +75,17 @@ class _HeatSolver(OnSurface):
         return self._surface.distance(sources, method="heat", time_step=_DISTANCE_STEP * self._t_coef)
 
     def _signed(self, curves, level_set_constraint, solver=None):
-        """The signed distance from the nearest of some curves, each a list of indices; infinite where no path leads."""
+        """The signed distance from curves, each a list of indices; infinite where no path leads."""
         if level_set_constraint != "ZeroSet":
             raise InvalidInput(f"{type(self).__name__}: level_set_constraint = {level_set_constraint!r}, must be "
                                "'ZeroSet': each curve has the distance 0")
-        step = VECTOR_STEP * self._t_coef
-        query = solver or (lambda curve: self._surface.signed_distance(curve, time_step=step))
-        return nearest_of([query(check.indices(type(self).__name__, "curves", curve, len(self._surface)))
-                           for curve in curves])
+        name = type(self).__name__
+        checked = [check.indices(name, "curves", curve, len(self._surface)) for curve in curves]
+        if not checked:
+            raise InvalidInput(f"{name}: curves is empty, must have at least one")
+        if solver is None:
+            return nearest_of([self._surface.signed_distance(checked, time_step=VECTOR_STEP * self._t_coef)])
+        return nearest_of([solver.query([self._surface._curve(name, curve) for curve in checked], [], None)])
 
 
 def nearest_of(distances):
@@ -160,17 +163,17 @@ class PointCloudHeatSolver(_Vectors):
 
     def compute_signed_distance(self, curves, cloud_normals, preserve_source_normals=False,
                                 level_set_constraint="ZeroSet", soft_level_set_weight=-1):
-        """Signed distances from the nearest of some curves, lists of indices, positive to their left as seen from the
-        side that cloud_normals (N x 3) point to. Every curve has the distance 0 on average: level_set_constraint must
-        be "ZeroSet", and preserve_source_normals and soft_level_set_weight are ignored.
+        """Signed distances from curves, lists of indices, positive to their left as seen from the side that
+        cloud_normals (N x 3) point to. Every curve has the distance 0 on average: level_set_constraint must be
+        "ZeroSet", and preserve_source_normals and soft_level_set_weight are ignored.
         """
         surface = self._surface
         given = check.rows_of_three("compute_signed_distance", "cloud_normals", cloud_normals, len(surface))
         normals, tangents = surface._frame_parts()
         side = np.where(np.einsum("ij,ij->i", normals, given) < 0, -1.0, 1.0)[:, None]
-        solver = _tufted.SignedDistanceSolver(surface._laplacian, normals * side, tangents,
+        solver = _tufted.SignedDistanceSolver(surface._laplacian, normals * side, tangents, "heat", None,
                                               VECTOR_STEP * self._t_coef, surface._solver(), None)
-        return self._signed(curves, level_set_constraint, lambda curve: solver.query(curve, None))
+        return self._signed(curves, level_set_constraint, solver)
 
 
 class MeshHeatMethodDistanceSolver(_HeatSolver):
@@ -262,8 +265,8 @@ class PolygonMeshHeatSolver(_MeshVectors):
         return self._distances(v_inds)
 
     def compute_signed_distance(self, curves, level_set_constraint="ZeroSet"):
-        """Signed distances from the nearest of some curves, lists of vertices, positive to their left. Every curve has
-        the distance 0 on average: level_set_constraint must be "ZeroSet".
+        """Signed distances from curves, lists of vertices, positive to their left. Every curve has the distance 0 on
+        average: level_set_constraint must be "ZeroSet".
         """
         return self._signed(curves, level_set_constraint)
 

@@ -8,8 +8,6 @@ from ._drop_in import VECTOR_STEP, OnSurface, checked_coefficient, nearest_of
 from ._drop_in_files import edges
 from ._tufted import InvalidInput
 
-# Each segment of a curve becomes this many sources, so distances beside it are off by at most 1/16 of it.
-_PIECES = 8
 # Coordinates below this count as 0: the caller has computed them.
 _ROUNDING = 1e-12
 
@@ -56,49 +54,30 @@ class _MeshPlaces(OnSurface):
         return np.array([weights[vertices == corner].sum() for corner in corners])
 
     def _along(self, curve, name="curves"):
-        """Faces and barycentric coordinates of points along a curve. Between two places of one face it is straight;
-        between others it has a gap.
+        """The places of a curve for Surface.signed_distance(), each in a face that also has the next one, if any has. A
+        vertex stays one.
         """
         places = [self._position(place, name) for place in curve]
-        faces, coordinates = [], []
-        for k, (vertices, weights) in enumerate(places):
-            ends = places[k + 1:k + 2] or [(vertices, weights)]
-            face = self._face_around(np.union1d(vertices, ends[0][0]))
-            pieces = _PIECES if face >= 0 and k + 1 < len(places) else 1
+        found = []
+        for (vertices, weights), (ahead, _) in zip(places, places[1:] + places[-1:]):
+            face = self._face_around(np.union1d(vertices, ahead))
             face = face if face >= 0 else self._face_around(vertices)
             if face < 0:
                 raise InvalidInput(f"{self._name}: {name} has the vertex {vertices[0]}, must be a corner of a face")
-            start = self._in_face(face, vertices, weights)
-            end = self._in_face(face, *ends[0]) if pieces > 1 else start
-            faces += pieces * [face]
-            coordinates += [start + (end - start) * piece / pieces for piece in range(pieces)]
-        return faces, coordinates
+            found.append((face, self._in_face(face, vertices, weights)))
+        return found
 
-    def _unsigned(self, curves, points=()):
-        faces, coordinates = [], []
-        for name, curve in [*(("curves", curve) for curve in curves), *(("points", [place]) for place in points)]:
-            more_faces, more_coordinates = self._along(curve, name)
-            faces += more_faces
-            coordinates += more_coordinates
-        if not faces:
+    def _marched(self, curves, points=()):
+        """The signed distances by marching from curves and points; a curve of one place is a point."""
+        single = [curve for curve in curves if len(curve) == 1]
+        inside = [place for curve in single for place in self._along(curve)]
+        inside += [place for point in points for place in self._along([point], "points")]
+        curves = [self._along(curve) for curve in curves if len(curve) > 1]
+        if not curves and not inside:
             raise InvalidInput(f"{self._name}: curves has no place, must have at least one")
-        return self._surface.distance(faces=np.array(faces), barycentric=np.array(coordinates))
-
-    def _signed_along(self, curve, time_step=VECTOR_STEP):
-        """The signed distance by heat from a curve of vertices; other places count as the vertex they are nearest to.
-        """
-        indices = [int(vertices[weights.argmax()]) for vertices, weights in map(self._position, curve)]
+        faces, weights = zip(*inside) if inside else (None, None)
         with check.named(self._name, curve="curves"):
-            return self._surface.signed_distance(indices, time_step=time_step)
-
-    def _signed(self, curve, time_step=VECTOR_STEP):
-        """The signed distance from a curve: by heat if all its places are vertices, otherwise by marching with the
-        sign of heat.
-        """
-        by_heat = self._signed_along(curve, time_step)
-        if all(len(self._position(place)[0]) == 1 for place in curve):
-            return by_heat
-        return np.copysign(self._unsigned([curve]), by_heat)
+            return self._surface.signed_distance(curves, faces=faces, barycentric=weights, method="marching")
 
 
 class MeshFastMarchingDistanceSolver(_MeshPlaces):
@@ -116,13 +95,12 @@ class MeshFastMarchingDistanceSolver(_MeshPlaces):
         curves: lists of places: (vertex, []), (edge, [t]), (face, [a, b]) or (face, [a, b, c]). Neighbours in a list
         are joined by a straight segment if they lie in one face.
         distances: those at the places, which must be 0 or left out.
-        sign: whether distances to the right of the curves are negative, by the signed heat method. For it, places
-        within edges and faces count as the nearest corner, so next to them the sign may be wrong.
+        sign: whether distances to the right of the curves are negative.
         """
         if any(np.any(np.asarray(values) != 0) for values in distances):
             raise InvalidInput("compute_distance: distances has values, must be 0 or empty")
-        found = self._unsigned(curves)
-        return np.copysign(found, nearest_of([self._signed_along(curve) for curve in curves])) if sign else found
+        found = nearest_of([self._marched(curves)])
+        return found if sign else abs(found)
 
 
 class MeshSignedHeatSolver(_MeshPlaces):
@@ -140,10 +118,9 @@ class MeshSignedHeatSolver(_MeshPlaces):
         """Distances from the nearest of some curves and points: N values, positive to the left of curves; infinite
         where no path leads.
 
-        curves: lists of places as in MeshFastMarchingDistanceSolver. Of a curve with places within edges and faces the
-        distance is that of marching, with the sign of heat.
+        curves: lists of places as in MeshFastMarchingDistanceSolver; all with a sign count as pieces of one.
         curve_signs: a boolean for each curve, False for distances without sign; empty: all have one.
-        points: places, or indices of vertices, from which distances have no sign.
+        points: places, or indices of vertices, from which distances have no sign; these are by marching.
         level_set_constraint: must be "ZeroSet". preserve_source_normals, soft_level_set_weight: ignored.
         """
         if level_set_constraint != "ZeroSet":
@@ -151,10 +128,12 @@ class MeshSignedHeatSolver(_MeshPlaces):
         signs = list(curve_signs) or [True] * len(curves)
         if len(signs) != len(curves):
             raise InvalidInput(f"compute_distance: curve_signs has {len(signs)} values, must have {len(curves)}")
-        found = [self._signed(curve, self._time_step) for curve, sign in zip(curves, signs) if sign]
+        signed = [self._along(curve) for curve, sign in zip(curves, signs) if sign]
         unsigned = [curve for curve, sign in zip(curves, signs) if not sign]
         points = [point if isinstance(point, (tuple, list)) else (point, []) for point in points]
-        return nearest_of(found + ([self._unsigned(unsigned, points)] if unsigned or points else []))
+        with check.named(self._name, curve="curves"):
+            found = [self._surface.signed_distance(signed, time_step=self._time_step)] if signed else []
+        return nearest_of(found + ([abs(self._marched(unsigned, points))] if unsigned or points else []))
 
 
 class MeshMarchingTrianglesSolver(_MeshPlaces):
