@@ -59,7 +59,8 @@ void check(Settings& settings, const Operator& source) {
   settings.build = settings.source.build;
   refuseTooMany(settings.from);
   settings.shape = readInput(settings.from, source.progress);
-  if (settings.shape.is_mesh) settings.build.cloud_only.clear();  // these options are meant for FILE, if that is a cloud
+  if (settings.shape.is_mesh)
+    settings.build.cloud_only.clear();  // these options are meant for FILE, if that is a cloud
   settings.source.stages = spectralStages(settings.count);
   settings.source.shown = {{"image", 3}};
   const auto rows = static_cast<double>(settings.shape.points.rows());
