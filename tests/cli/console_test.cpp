@@ -99,6 +99,7 @@ TEST_F(ConsoleOutput, EveryExampleOfEveryHelpRuns) {
   dir_.write("pairs.txt", "0 0\n1 1\n");
   dir_.write("handles.txt", "0 0 0 1  # there\n3\n");
   dir_.write("rim.txt", "0\n1\n3\n");
+  dir_.write("seam.txt", "0 1 2\n");
   dir_.write("points.txt", "0\n2\n");
   dir_.write("curve.txt", "0\n1\n2\n0\n");
   dir_.write("scans/mesh.off", tetrahedron);

@@ -1,8 +1,10 @@
-// The subcommand map, on a sheet without symmetry and the same one rolled up.
+// The subcommand map, on a sheet without symmetry and the same one rolled up; and parameterize --cut.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include "subcommands.h"
 
@@ -95,6 +97,27 @@ TEST_F(Maps, RefuseWhatIsNoShapeAndNoPair) {
   expectRefusal(pairs("289 0\n"), "line 1: 289 is no index in [0, 289), the points of");
   expectRefusal(pairs("0.5 0\n"), "line 1: 0.5 is no index");
   expectRefusal(pairs("0 -1\n"), "line 1 is no index in [0, 289)");
+}
+
+TEST_F(Subcommands, ParameterizeOpensAClosedSurfaceAlongACut) {
+  const std::string mesh = dir_.write("tetrahedron.off", tetrahedron),
+                    cut = dir_.write("cut.txt", "0 1 2\n1 3  # star\n");
+  run({"parameterize", mesh, "--cut", cut, "--out", in("out")});
+  const std::vector<double> corners = values("out/corner_uv.npy"), uv = values("out/uv.npy");
+  ASSERT_EQ(corners.size(), 24u);
+  ASSERT_EQ(uv.size(), 8u);
+  EXPECT_EQ(report("out")["report"]["flipped"], 0);
+  EXPECT_EQ(report("out")["report"]["rims"], 1);
+  // Cut along the three edges of point 1, which has a place in each of its triangles: 0 1 3, 0 2 1 and 1 2 3.
+  std::set<std::pair<double, double>> places;
+  for (const int corner : {2, 4, 6}) places.insert({corners[2 * corner], corners[2 * corner + 1]});
+  EXPECT_EQ(places.size(), 3u);
+  EXPECT_TRUE(places.count({uv[2], uv[3]}) == 1);
+  expectRefusal({"parameterize", mesh, "--cut", dir_.write("bad.txt", "0 1\n")}, "must be a disk", 1);
+  expectRefusal({"parameterize", mesh, "--cut", dir_.write("bad.txt", "0 4\n")}, "line 1 is no index in [0, 4)");
+  expectRefusal({"parameterize", mesh, "--cut", dir_.write("bad.txt", "0\n")}, "a cut has 1 points", 1);
+  expectRefusal({"parameterize", mesh, "--cut", cut, "--method", "harmonic"}, "--cut with --method harmonic needs");
+  expectRefusal({"parameterize", mesh, "--cut", cut, "--method", "harmonic", "--rim", cut}, "--rim excludes --cut");
 }
 
 }  // namespace

@@ -120,7 +120,8 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       {{"deform", cloud_, "--handles", "INPUT"}, "0 0 0 1\n3 1 0 0\n9 0 1 0\n"},
       {{"weights", cloud_, "--handles", "INPUT"}, indices},
       {{"signed-distance", cloud_, "--curve", "INPUT"}, "0\n7\n19\n"},
-      {{"parameterize", mesh, "--method", "harmonic", "--rim", "INPUT"}, "1\n2\n3\n4\n"}};
+      {{"parameterize", mesh, "--method", "harmonic", "--rim", "INPUT"}, "1\n2\n3\n4\n"},
+      {{"parameterize", mesh, "--cut", "INPUT"}, "1 0\n"}};
   std::set<std::string> options;
   for (const Reading& reading : readings) {
     const auto named = [&](const std::string& input) {

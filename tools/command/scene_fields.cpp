@@ -15,7 +15,7 @@ using tufted::SceneField;
 }  // namespace
 
 bool isShown(const std::string& name) {
-  return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "component_edges", "M",
+  return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "component_edges", "M", "corner_uv",
                          "status", "representative", "components", "path", "isolines"});
 }
 
