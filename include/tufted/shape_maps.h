@@ -78,8 +78,9 @@ struct PointMaps {
   std::vector<int> to_source;  ///< N', a point of the source for each of the target
 };
 
-/// The maps from point to point that a functional map stands for: each point goes to the nearest one in the space of
-/// coefficients (Ovsjanikov et al. 2012, Section 6.1). Values on the source are carried to the target by `to_source`.
+/// The maps from point to point that a functional map stands for: C carries points of the source into the space
+/// of the target's coefficients, and the nearest ones there correspond (Ovsjanikov et al. 2012, Section 6.1). Values on
+/// the source are carried to the target by `to_source`.
 /// @param C k x k, of functionalMap() or zoomOut()
 /// @param threads at most this many; 0: one per processor
 /// @throws InvalidInput for arrays of the wrong size, an area of 0, or a C that is not finite

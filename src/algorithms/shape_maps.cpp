@@ -91,10 +91,12 @@ struct Basis {
   MatrixXd waveWeights(const VectorXd& logarithms, double width) const {
     MatrixXd weights(values.size(), logarithms.size());
     for (Index e = 0; e < weights.cols(); ++e) {
-      for (Index i = 0; i < weights.rows(); ++i) {
-        const double steps = values[i] > 0 ? (std::log(values[i]) - logarithms[e]) / width : 0;
-        weights(i, e) = values[i] > 0 ? std::exp(-steps * steps / 2) : 0;
-      }
+      const VectorXd exponents = values.unaryExpr([&](double value) {
+        const double widths = (std::log(value) - logarithms[e]) / width;  // log(0) is -infinity, and its weight 0
+        return -widths * widths / 2;
+      });
+      // Far from all eigenvalues the nearest one counts.
+      weights.col(e) = (exponents.array() - exponents.maxCoeff()).exp();
       weights.col(e) /= weights.col(e).sum();
     }
     return weights;
@@ -118,12 +120,17 @@ struct Bases {
   }
 };
 
-/// For some points of `from` the one of the candidates on `to` that C, from its coefficients to those of `from`, brings
-/// nearest.
-std::vector<int> nearestOf(const Basis& from, const Basis& to, const MatrixXd& C, const std::vector<int>& points,
-                           const std::vector<int>& candidates, const Workers& workers) {
-  const RowsOfNumbers places = to.vectors(candidates, Eigen::seqN(0, C.cols()));
-  const RowsOfNumbers asked = from.vectors(points, Eigen::seqN(0, C.rows())) * C;
+/// The first coefficients of the functions that are 1 at one of the points, and where C, k x k, carries them.
+RowsOfNumbers pointsOf(const Basis& basis, const std::vector<int>& points, Index k) {
+  return basis.vectors(points, Eigen::seqN(0, k));
+}
+RowsOfNumbers imagesOf(const Basis& source, const std::vector<int>& points, const MatrixXd& C) {
+  return pointsOf(source, points, C.cols()) * C.transpose();
+}
+
+/// For each row of `asked` that of the candidates whose row of `places` is nearest.
+std::vector<int> nearestOf(const RowsOfNumbers& places, const std::vector<int>& candidates, const RowsOfNumbers& asked,
+                           const Workers& workers) {
   std::vector<int> found = nearestRows(places, asked, workers);
   for (int& i : found) i = candidates[i];
   return found;
@@ -224,8 +231,9 @@ MatrixXd refined(const Bases& bases, MatrixXd C, const std::vector<int>& points,
   const Workers turns(1, options.progress), workers(options.threads, silent);
   while (C.rows() < k) {
     turns.report("refine map", static_cast<double>(C.rows()) / static_cast<double>(k));
-    C = pulled(bases, points, nearestOf(bases.target, bases.source, C, points, candidates, workers),
-               std::min<Index>(k, C.rows() + options.step));
+    const std::vector<int> found =
+        nearestOf(imagesOf(bases.source, candidates, C), candidates, pointsOf(bases.target, points, C.rows()), workers);
+    C = pulled(bases, points, found, std::min<Index>(k, C.rows() + options.step));
   }
   return C;
 }
@@ -300,17 +308,20 @@ PointMaps pointMaps(const MappedShape& source, const MappedShape& target, const 
   const Bases bases("pointMaps", source, target, std::max<Index>(C.rows(), 1));
   bases.checkMap("pointMaps", C);
   const Workers workers(threads, progress);
-  const auto mapped = [&](const Basis& from, const Basis& to, const MatrixXd& back) {
-    std::vector<int> candidates;
-    for (int i = 0; i < to.masses.size(); ++i)
-      if (to.laplacian.status[i] == PointStatus::active) candidates.push_back(i);
-    const std::vector<int> points = from.points();
-    const std::vector<int> found = nearestOf(from, to, back, points, candidates, workers);
-    std::vector<int> images(from.laplacian.status.size(), -1);
-    for (std::size_t i = 0; i < points.size(); ++i) images[points[i]] = found[i];
-    return images;
+  const std::vector<int> first = bases.source.points(), second = bases.target.points();
+  const RowsOfNumbers images = imagesOf(bases.source, first, C), places = pointsOf(bases.target, second, C.rows());
+  const auto spread = [](const Basis& from, const std::vector<int>& points, const std::vector<int>& found) {
+    std::vector<int> all(from.laplacian.status.size(), -1);
+    for (std::size_t i = 0; i < points.size(); ++i) all[points[i]] = found[i];
+    return all;
   };
-  return {mapped(bases.source, bases.target, C.transpose()), mapped(bases.target, bases.source, C)};
+  // A coincident point is as near as its representative, which comes first, and is not to be found instead of it.
+  const auto represented = [](const Basis& to, std::vector<int> found) {
+    for (int& i : found) i = to.laplacian.representative[i];
+    return found;
+  };
+  return {spread(bases.source, first, represented(bases.target, nearestOf(places, second, images, workers))),
+          spread(bases.target, second, represented(bases.source, nearestOf(images, first, places, workers)))};
 }
 
 }  // namespace tufted

@@ -15,8 +15,8 @@ using tufted::SceneField;
 }  // namespace
 
 bool isShown(const std::string& name) {
-  return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "component_edges", "M", "corner_uv",
-                         "status", "representative", "components", "path", "isolines"});
+  return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "component_edges", "M",
+                         "corner_uv", "status", "representative", "components", "path", "isolines"});
 }
 
 FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {

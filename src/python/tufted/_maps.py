@@ -92,8 +92,9 @@ def zoom_out(source, target, start, *, k=100, step=1, samples=1000, progress=Non
 
 
 def point_maps(source, target, C, *, progress=None):
-    """The maps from point to point in both directions that a functional map stands for: each point goes to the nearest
-    one in the space of coefficients (Ovsjanikov et al. 2012, Section 6.1).
+    """The maps from point to point in both directions that a functional map stands for: C carries points
+    of the source into the space of the target's coefficients, and the nearest ones there correspond (Ovsjanikov et al.
+    2012, Section 6.1).
 
     source, target: surfaces, clouds or meshes. C: of functional_map() or zoom_out(). progress: see Surface.
     Returns to_target (N indices of points on the target) and to_source (N' indices of points on the source), -1 at
