@@ -12,8 +12,8 @@ namespace tufted {
 
 /// A shape of maps between two shapes. Both parts are borrowed.
 struct MappedShape {
-  const Laplacian& laplacian;
-  const Spectrum& spectrum;  ///< its first eigenpairs, eigenvalues 0 included
+  const Laplacian& laplacian;  ///< of the shape, with its positions
+  const Spectrum& spectrum;    ///< its first eigenpairs, eigenvalues 0 included
 };
 
 /// Options of functionalMap().
@@ -23,9 +23,10 @@ struct FunctionalMapOptions {
   /// tests/python/test_maps.py with the seeds 1 to 7, maps are best from 0.01 to 0.1; with less they follow differences
   /// of the samples, with more they lose the descriptors.
   double commutativity = 3e-2;
-  /// Functions that correspond, N x D and N' x D, in any unit, such as signatures at times in proportion to the areas;
-  /// without columns: wave kernel signatures at energies that both spectra have.
-  Eigen::MatrixXd source_descriptors = {}, target_descriptors = {};
+  /// Functions on the source, N x D, in any unit, such as signatures at times in proportion to the areas; without
+  /// columns: wave kernel signatures at energies that both spectra have.
+  Eigen::MatrixXd source_descriptors = {};
+  Eigen::MatrixXd target_descriptors = {};  ///< the corresponding functions on the target, N' x D
   VectorXd weights = {};  ///< D factors >= 0 of the misfits of descriptors; empty: ones
   /// Pairs of a point of the source and the corresponding one of the target, which take part: adds wave kernels around
   /// them.
