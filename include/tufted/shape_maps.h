@@ -27,7 +27,7 @@ struct FunctionalMapOptions {
   /// columns: wave kernel signatures at energies that both spectra have.
   Eigen::MatrixXd source_descriptors = {};
   Eigen::MatrixXd target_descriptors = {};  ///< the corresponding functions on the target, N' x D
-  VectorXd weights = {};  ///< D factors >= 0 of the misfits of descriptors; empty: ones
+  VectorXd weights = {};                    ///< D factors >= 0 of the misfits of descriptors; empty: ones
   /// Pairs of a point of the source and the corresponding one of the target, which take part: adds wave kernels around
   /// them.
   std::vector<std::array<int, 2>> landmarks = {};
