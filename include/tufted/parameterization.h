@@ -91,4 +91,20 @@ struct ParameterizationReport {
 Eigen::MatrixX2d parameterize(const Laplacian& laplacian, const TrianglesRef& triangles,
                               const ParameterizationOptions& options = {}, ParameterizationReport* report = nullptr);
 
+/// Cuts a surface open along edges and lays it out, so that closed surfaces have a seam where the caller wants it.
+///
+/// The surface falls apart along the cuts, between all triangles of their edges. A point on a cut has a place for each
+/// connected set of its triangles, so places are given for the corners of triangles, as the indices vt of an OBJ do.
+/// @param cuts lists of points; consecutive ones are joined by edges of the triangles. Together they make disks of the
+/// charts that they touch. A path within the surface needs at least two edges to open it.
+/// @param options without a rim; with HarmonicWeights::mean_value if harmonic, as L has no cuts
+/// @param report its points are those of the cut surface, where points on cuts count once for each of their places
+/// @return 3 F x 2: row 3 t + s has the place of corner s of triangle t; NaN where parameterize() has NaN
+/// @throws InvalidInput as parameterize(), and for a rim, harmonic weights of L, a cut of fewer than two points, a
+/// point out of range, points that no edge joins, or a chart with a cut that is no disk
+/// @throws SolverFailure and Cancelled as parameterize()
+Eigen::MatrixX2d parameterizeCut(const Laplacian& laplacian, const TrianglesRef& triangles,
+                                 const std::vector<std::vector<int>>& cuts, const ParameterizationOptions& options = {},
+                                 ParameterizationReport* report = nullptr);
+
 }  // namespace tufted

@@ -29,6 +29,7 @@
 #include "tufted/report.h"
 #include "tufted/scan_structure.h"
 #include "tufted/segments.h"
+#include "tufted/shape_maps.h"
 #include "tufted/signatures.h"
 #include "tufted/signed_distance.h"
 #include "tufted/smoothing.h"

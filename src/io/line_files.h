@@ -13,5 +13,8 @@ void writeLinesPly(const OutputPath& to, const std::vector<Polyline>& lines);
 /// Writes lines.obj as documented at writeResults().
 /// @throws IoError
 void writeLinesObj(const OutputPath& to, const std::vector<Polyline>& lines);
+/// Writes lines.svg as documented at writeResults().
+/// @throws IoError
+void writeLinesSvg(const OutputPath& to, const std::vector<Polyline>& lines);
 
 }  // namespace tufted::io

@@ -93,7 +93,7 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
   std::vector<std::string> names;
   names.reserve(arrays.size() + options.copies.size() + 1);
   for (const ResultArray& array : arrays) names.push_back(array.name + ".npy");
-  if (options.lines) names.insert(names.end(), {"lines.ply", "lines.obj"});
+  if (options.lines) names.insert(names.end(), {"lines.ply", "lines.obj", "lines.svg"});
   for (const Format format : options.copies) names.emplace_back(copyName(format));
   names.emplace_back(io::report_name);
   return names;
@@ -164,6 +164,7 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
   if (options.lines) {
     io::writeLinesPly(files.stage("lines.ply"), *options.lines);
     io::writeLinesObj(files.stage("lines.obj"), *options.lines);
+    io::writeLinesSvg(files.stage("lines.svg"), *options.lines);
   }
   io::stageResults(files, laplacian, geometry, arrays, options);
   files.commit();

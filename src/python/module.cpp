@@ -15,6 +15,7 @@ PYBIND11_MODULE(_tufted, module) {  // NOLINT
   addInterpolation(module);
   addVectorHeat(module);
   addShape(module);
+  addShapeMaps(module);
   addMoving(module);
   addOperators(module);
   addFiles(module);

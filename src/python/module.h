@@ -14,6 +14,7 @@ void addDistance(pybind11::module_& module);
 void addInterpolation(pybind11::module_& module);
 void addVectorHeat(pybind11::module_& module);
 void addShape(pybind11::module_& module);
+void addShapeMaps(pybind11::module_& module);
 void addMoving(pybind11::module_& module);
 void addOperators(pybind11::module_& module);
 void addFiles(pybind11::module_& module);

@@ -91,7 +91,8 @@ py::tuple denoised(const Doubles& points, const std::optional<ScanStructure>& st
 
 py::tuple parameterized(const Laplacian& laplacian, const Integers& faces, const std::string& method,
                         const std::string& weights, const Integers& rim, const Eigen::MatrixXd& rim_positions,
-                        const Solving& solving, const py::object& progress) {
+                        const std::optional<std::vector<std::vector<int>>>& cuts, const Solving& solving,
+                        const py::object& progress) {
   const auto triangles = trianglesOf(faces);
   ParameterizationOptions options = {
       .method = chosen<ParameterizationMethod>(
@@ -105,7 +106,8 @@ py::tuple parameterized(const Laplacian& laplacian, const Integers& faces, const
   ParameterizationReport report;
   Eigen::MatrixXd uv = run(progress, [&](const Progress& called) {
     options.solver = solving.options(called);
-    return Eigen::MatrixXd(parameterize(laplacian, triangles, options, &report));
+    return Eigen::MatrixXd(cuts ? parameterizeCut(laplacian, triangles, *cuts, options, &report)
+                                : parameterize(laplacian, triangles, options, &report));
   });
   return py::make_tuple(std::move(uv), report.quasi_conformal_error, report.triangles, report.flipped, report.collapsed,
                         report.not_mapped);

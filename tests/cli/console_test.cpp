@@ -67,7 +67,7 @@ TEST_F(ConsoleOutput, WithoutArgumentsIsTheHelpWithSubcommandsByPurposeAndThreeE
                               "Values on the surface:", "Frequencies:", "Shape:", "Moving the points:"})
     EXPECT_TRUE(contains(text, purpose)) << purpose;
   EXPECT_EQ(examples(text).size(), 3u);
-  std::set<std::string> expected = {"info",   "validate",        "view",   "parameterize", "minimal",
+  std::set<std::string> expected = {"info",   "validate",        "view",   "parameterize", "minimal", "map",
                                     "deform", "signed-distance", "weights"};
   for (const std::vector<std::string>& command : commands) expected.insert(command[0]);
   const std::vector<std::string> listed = names();
@@ -95,8 +95,11 @@ TEST_F(ConsoleOutput, EveryExampleOfEveryHelpRuns) {
   dir_.write("scan.xyz", sphere(400));
   dir_.write("mesh.off", tetrahedron);
   dir_.write("open.off", "OFF 4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");  // with a rim, for parameterize
+  for (const char* name : {"flat.off", "bent.off"}) fs::copy_file(dir_ / "open.off", dir_ / name);
+  dir_.write("pairs.txt", "0 0\n1 1\n");
   dir_.write("handles.txt", "0 0 0 1  # there\n3\n");
   dir_.write("rim.txt", "0\n1\n3\n");
+  dir_.write("seam.txt", "0 1 2\n");
   dir_.write("points.txt", "0\n2\n");
   dir_.write("curve.txt", "0\n1\n2\n0\n");
   dir_.write("scans/mesh.off", tetrahedron);

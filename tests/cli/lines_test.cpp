@@ -56,6 +56,13 @@ TEST_F(Lines, TraceStartsInsideTrianglesAndEndsAtTheRim) {
   EXPECT_EQ(readAll(dir_ / "out/lines.obj"), "v 1 0.5 0\nv 1 1 0\nl 1 2\n");
 }
 
+TEST_F(Lines, PathIsWrittenAsLineToo) {
+  run({"path", square_, "--from", "1", "--to", "3", "--out", in("out")});
+  const std::string text = readAll(dir_ / "out/lines.obj");
+  EXPECT_TRUE(text.starts_with("v 1 0 0\n") && contains(text, "v 0 1 0\nl 1 ")) << text;
+  EXPECT_TRUE(contains(readAll(dir_ / "out/lines.svg"), "d=\"M820 820L")) << readAll(dir_ / "out/lines.svg");
+}
+
 TEST_F(Lines, TraceRefusesOtherThanOneStartAndDirection) {
   const std::vector<std::string> line = {"trace", square_, "--direction", "1,0,0", "--length", "1"};
   const auto with = [&](std::vector<std::string> words) {
@@ -82,6 +89,8 @@ TEST_F(Lines, IsolinesAreWrittenAsTableEdgesAndElements) {
                                         1, 0.5,  0, 0.5,  0, 1, 0.5,  0.5,  0.5,  0, 1, 0.5,  1, 0.5,  0}));
   EXPECT_EQ(readAll(dir_ / "out/lines.obj"),
             "v 0 0.25 0\nv 0.25 0.25 0\nv 1 0.25 0\nl 1 2 3\nv 0 0.5 0\nv 0.5 0.5 0\nv 1 0.5 0\nl 4 5 6\n");
+  const std::string plan = readAll(dir_ / "out/lines.svg");
+  EXPECT_TRUE(contains(plan, ">0.5</text>") && contains(plan, ">0.25</text>") && !contains(plan, ">7<")) << plan;
   const std::string body = bodyOf("out", 6, 4);
   std::array<double, 4> last;
   std::memcpy(last.data(), body.data() + 5 * sizeof last, sizeof last);

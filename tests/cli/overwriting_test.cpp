@@ -114,11 +114,14 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       {{"isolines", cloud_, "--count", "3", "--values", "INPUT"}, npy},
       {{"smooth", cloud_, "--values", "INPUT"}, npy},
       {{"smooth", cloud_, "--fixed", "INPUT"}, indices},
+      {{"map", cloud_, "--from", "INPUT"}, points},
+      {{"map", mesh, "--from", mesh, "--landmarks", "INPUT"}, "0 0\n"},
       {{"minimal", mesh, "--fixed", "INPUT"}, "1\n2\n3\n4\n"},
       {{"deform", cloud_, "--handles", "INPUT"}, "0 0 0 1\n3 1 0 0\n9 0 1 0\n"},
       {{"weights", cloud_, "--handles", "INPUT"}, indices},
       {{"signed-distance", cloud_, "--curve", "INPUT"}, "0\n7\n19\n"},
-      {{"parameterize", mesh, "--method", "harmonic", "--rim", "INPUT"}, "1\n2\n3\n4\n"}};
+      {{"parameterize", mesh, "--method", "harmonic", "--rim", "INPUT"}, "1\n2\n3\n4\n"},
+      {{"parameterize", mesh, "--cut", "INPUT"}, "1 0\n"}};
   std::set<std::string> options;
   for (const Reading& reading : readings) {
     const auto named = [&](const std::string& input) {
@@ -169,7 +172,7 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
   for (const Reading& reading : readings) {
     std::istringstream lines(runTufted({reading.words[0], "--help"}).out);
     for (std::string line; std::getline(lines, line);) {
-      const bool names_input = contains(line, " TEXT ") || contains(line, " NPY ");
+      const bool names_input = contains(line, " TEXT ") || contains(line, " SOURCE ") || contains(line, " NPY ");
       const std::size_t begin = line.find("--");
       if (!names_input || begin == std::string::npos) continue;
       const std::string option = line.substr(begin, line.find_first_of(" ,", begin) - begin);

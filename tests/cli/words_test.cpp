@@ -35,7 +35,7 @@ TEST_F(Words, AnUnknownCommandIsNamedWithTheNearest) {
       {"xyz"},
       "unknown command `xyz`, must be one of info, view, validate, laplacian, operators, distance, path, trace, "
       "signed-distance, logmap, "
-      "transport, isolines, interpolate, extend, weights, poisson, green, spectrum, hks, embed, filter, normals, "
+      "transport, isolines, interpolate, extend, weights, poisson, green, spectrum, hks, embed, filter, map, normals, "
       "curvature, segment, "
       "parameterize, denoise, smooth, minimal, deform (see tufted --help)");
   expectSaid({"--hlep"}, "unknown option `--hlep`; did you mean `--help`? (see tufted --help)");

@@ -118,6 +118,8 @@ MESH = torus_mesh(10, 8)
     (lambda: tufted.PointCloud(CLOUD).parameterize(method="flat"), "parameterize: method = 'flat', must be one of"),
     (lambda: tufted.PointCloud(CLOUD).parameterize(), "is closed, must have a rim: cut it open"),
     (lambda: tufted.PointCloud(CLOUD).parameterize(rim=[1, 2, 3]), "must be with method 'harmonic' alone"),
+    (lambda: tufted.PointCloud(CLOUD).parameterize(cuts=[[0, 400]]), "cuts has 400, must lie in [0, 400)"),
+    (lambda: tufted.PointCloud(CLOUD).parameterize(cuts=[[0]]), "parameterize: a cut has 1 points, must have at least"),
     (lambda: tufted.PointCloud(CLOUD).minimal_surface(), "minimal_surface: the surface has no rim"),
     (lambda: tufted.PointCloud(CLOUD).minimal_surface([400]), "minimal_surface: fixed has 400, must lie in [0, 400)"),
     (lambda: tufted.PointCloud(CLOUD).deform([0, 1], [[0, 0, 0]]),

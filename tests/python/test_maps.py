@@ -122,20 +122,13 @@ def test_a_larger_start_is_returned_as_it_is(meshes):
     np.testing.assert_array_equal(tufted.zoom_out(*meshes[1:], C, k=9), C)
 
 
-def test_functional_map_stops_when_told(meshes):
-    stages = []
-    with pytest.raises(tufted.Cancelled, match="functional_map"):
-        tufted.functional_map(*meshes[1:], progress=lambda stage, fraction: stages.append(stage) or (
-            stage != "functional_map" or stages.count(stage) < 3))
-    assert stages.count("functional_map") == 3
-
-
-def test_zoom_out_stops_when_told(meshes):
-    stages = []
-    with pytest.raises(tufted.Cancelled, match="zoom_out"):
-        tufted.zoom_out(*meshes[1:], np.eye(30), progress=lambda stage, fraction: stages.append(stage) or (
-            stage != "zoom_out" or stages.count(stage) < 3))
-    assert stages.count("zoom_out") == 3
+@pytest.mark.parametrize("stage, call", [
+    ("functional map", lambda a, b, progress: tufted.functional_map(a, b, progress=progress)),
+    ("refine map", lambda a, b, progress: tufted.zoom_out(a, b, np.eye(30), progress=progress)),
+    ("map", lambda a, b, progress: tufted.point_maps(a, b, np.eye(30), progress=progress))])
+def test_maps_stop_when_told(meshes, stage, call):
+    with pytest.raises(tufted.Cancelled, match=f"during {stage}$"):
+        call(*meshes[1:], lambda now, fraction: now != stage)
 
 
 def test_points_that_take_no_part_have_no_image():

@@ -30,6 +30,14 @@ def test_a_plane_is_laid_out_as_it_is():
     assert np.linalg.norm(mesh.parameterize(method="harmonic").uv, axis=1).max() == pytest.approx(1)
 
 
+def test_a_plane_that_is_cut_has_two_places_along_the_cut():
+    points, faces = grid(12)
+    found = tufted.Mesh(points, faces).parameterize(cuts=[range(72, 78)])
+    assert found.uv.shape == (len(faces), 3, 2) and found.quasi_conformal_error == pytest.approx(1, abs=1e-8)
+    places = [len(np.unique(found.uv[faces == i], axis=0)) for i in range(144)]
+    assert places == [2 if 72 <= i < 77 else 1 for i in range(144)]
+
+
 def test_a_bump_becomes_flat_and_handles_lift_a_plane():
     points, faces = grid(12)
     bump = points + [0, 0, 1] * (np.sin(np.pi * points[:, :1]) * np.sin(np.pi * points[:, 1:2]))

@@ -37,6 +37,7 @@ void addLogmap(CLI::App& app, Run& run);
 void addParameterize(CLI::App& app, Run& run);
 void addDenoise(CLI::App& app, Run& run);
 void addSmooth(CLI::App& app, Run& run);
+void addMap(CLI::App& app, Run& run);
 void addMinimal(CLI::App& app, Run& run);
 void addDeform(CLI::App& app, Run& run);
 void addWeights(CLI::App& app, Run& run);

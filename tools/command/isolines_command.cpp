@@ -33,6 +33,7 @@ Files in DIR, which replace older ones when all are complete:
                 not repeat its first point
   lines.ply     the points with the field value, float64, and edges between them
   lines.obj     the points, and an element l for each line
+  lines.svg     a plan of the lines to scale, seen from above, y up, with a legend of the values
   points.ply    the points; points.pcd with --format pcd
   report.json   value, length, points, and whether it is closed, of each line
 `tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
@@ -47,7 +48,7 @@ struct Settings {
   Eigen::MatrixXd field;
   std::vector<double> values;
 
-  std::vector<std::string> files() const { return {"isolines.npy", "lines.ply", "lines.obj"}; }
+  std::vector<std::string> files() const { return {"isolines.npy", "lines.ply", "lines.obj", "lines.svg"}; }
 };
 
 /// Values in equal steps between the least and the greatest one, without these.

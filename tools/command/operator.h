@@ -102,7 +102,7 @@ struct Results {  // NOLINT(bugprone-exception-escape): moves of its json, which
   std::vector<std::string> warnings = {};  ///< one line for each warning
   /// What is shown instead of `arrays`, if not empty.
   std::vector<tufted::ResultArray> shown = {};
-  /// Lines to write as lines.ply and lines.obj, if set.
+  /// Lines to write as lines.ply, lines.obj and lines.svg, if set.
   std::optional<std::vector<tufted::Polyline>> lines = {};
   /// Writes the results instead of writeResults(), if set.
   std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};

@@ -1,7 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "command.h"
 #include "moved_points.h"
@@ -21,6 +24,7 @@ constexpr const char* footer =
     R"(Examples:
   tufted parameterize open.off --out map
   tufted parameterize open.off --method harmonic --weights mean-value --out disc
+  tufted parameterize mesh.off --cut seam.txt --out opened
 
   conformal  keeps angles as well as possible and leaves the rim free. The surface may have several rims and parts. The
              parts lie beside each other, each with the area that it has on the surface.
@@ -29,13 +33,16 @@ constexpr const char* footer =
              disk unless --rim is given.
 The triangles of a cloud are those of `tufted laplacian --format triangles`. Closed and one-sided surfaces are refused,
 and so are conformal maps of tubes so long that triangles collapse: cut such surfaces open, tubes along their length.
---rim is a text file of the points of the rim in order, in lines INDEX or INDEX U V.
+--rim is a text file of the points of the rim in order, in lines INDEX or INDEX U V. --cut is a text file of paths along
+edges, a line of indices for each, which together open the surface to a disk.
 
 Files in DIR, which replace older ones when all are complete:
-  uv.npy       N x 2, float64; NaN at points that take no part and in parts that cannot be mapped
-  points.ply   the points with the field uv, float32; points.pcd with --format pcd
-  report.json  method, charts, rims, flipped and collapsed triangles, quasi_conformal_error (1 where all angles are
-               kept), residual, seconds
+  uv.npy         N x 2, float64; NaN at points that take no part and in parts that cannot be mapped
+  corner_uv.npy  with --cut: F x 6, float64, u and v of the three corners of each triangle, as points on a cut have
+                 several places, of which uv.npy has one
+  points.ply     the points with the field uv, float32; points.pcd with --format pcd
+  report.json    method, charts, rims, flipped and collapsed triangles, quasi_conformal_error (1 where all angles are
+                 kept), residual, seconds
 `tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
 `tufted laplacian --format npz,ply,cover --out DIR` wrote: clouds
 need the cover, and meshes only their triangles in points.ply.)";
@@ -50,10 +57,13 @@ const std::map<std::string, HarmonicWeights> weights = {{"laplacian", HarmonicWe
 
 struct Settings {
   OperatorSettings source;
-  std::filesystem::path rim;
+  std::filesystem::path rim, cut;
+  std::vector<std::vector<int>> cuts;
   tufted::ParameterizationOptions options;
 
-  std::vector<std::string> files() const { return {"uv.npy"}; }
+  std::vector<std::string> files() const {
+    return cut.empty() ? std::vector<std::string>{"uv.npy"} : std::vector<std::string>{"uv.npy", "corner_uv.npy"};
+  }
 };
 
 void check(Settings& settings, const Operator& source) {
@@ -62,6 +72,15 @@ void check(Settings& settings, const Operator& source) {
   const bool is_harmonic = options.method == ParameterizationMethod::harmonic;
   if (!is_harmonic && options.weights != HarmonicWeights::laplacian)
     throw tufted::InvalidInput("--weights needs --method harmonic");
+  settings.cuts.clear();
+  if (!settings.cut.empty()) {
+    if (is_harmonic && options.weights == HarmonicWeights::laplacian)
+      throw tufted::InvalidInput("--cut with --method harmonic needs --weights mean-value, as L has no cuts");
+    for (const Row& row : readRows(settings.cut)) {
+      std::vector<int>& path = settings.cuts.emplace_back();
+      for (const double number : row.numbers) path.push_back(placeOf({number}, source, row.name).index);
+    }
+  }
   if (settings.rim.empty()) return;
   if (!is_harmonic) throw tufted::InvalidInput("--rim needs --method harmonic");
   options.rim.clear();
@@ -88,8 +107,20 @@ Results compute(Settings& settings, Operator& source) {
   settings.options.solver = source.solverOptions();
   const tufted::Triangles triangles = trianglesOf(source);
   tufted::ParameterizationReport made;
-  const Eigen::MatrixX2d uv =
-      blameSurface(source, [&] { return tufted::parameterize(source.laplacian, triangles, settings.options, &made); });
+  Eigen::MatrixX2d uv, corners;
+  blameSurface(source, [&] {
+    if (settings.cut.empty())
+      uv = tufted::parameterize(source.laplacian, triangles, settings.options, &made);
+    else
+      corners = tufted::parameterizeCut(source.laplacian, triangles, settings.cuts, settings.options, &made);
+    return 0;
+  });
+  if (!settings.cut.empty()) {
+    uv.setConstant(source.points(), 2, std::numeric_limits<double>::quiet_NaN());
+    for (Eigen::Index c = 0; c < corners.rows(); ++c)
+      if (corners.row(c).allFinite()) uv.row(triangles(c / 3, c % 3)) = corners.row(c);
+    for (Eigen::Index i = 0; i < uv.rows(); ++i) uv.row(i) = uv.row(source.laplacian.representative[i]).eval();
+  }
   const bool is_harmonic = settings.options.method == ParameterizationMethod::harmonic;
   const char* const method = !is_harmonic                                              ? "conformal"
                              : settings.options.weights == HarmonicWeights::mean_value ? "harmonic, mean values"
@@ -125,6 +156,11 @@ Results compute(Settings& settings, Operator& source) {
     results.warnings.push_back(std::to_string(made.collapsed_charts) +
                                " parts are too long for their rims and are not mapped; cut them open");
   results.arrays = {{.name = "uv", .values = uv}};
+  if (!settings.cut.empty()) {
+    Eigen::MatrixXd table(triangles.rows(), 6);
+    for (Eigen::Index c = 0; c < corners.rows(); ++c) table.row(c / 3).segment<2>(2 * (c % 3)) = corners.row(c);
+    results.arrays.push_back({.name = "corner_uv", .values = std::move(table), .per_point = false});
+  }
   return results;
 }
 
@@ -140,9 +176,14 @@ void addParameterize(CLI::App& app, Run& run) {
             "conformal: keeps angles, free rim; harmonic: rim on a circle or as in --rim (conformal)");
   addChoice(*command, "--weights", settings->options.weights, weights,
             "With --method harmonic: weights of L, or mean-value weights, which flip no triangle (laplacian)");
-  command
-      ->add_option("--rim", settings->rim,
-                   "With --method harmonic: text file of the points of the rim in order, lines INDEX or INDEX U V")
+  CLI::Option* const rim =
+      command
+          ->add_option("--rim", settings->rim,
+                       "With --method harmonic: text file of the points of the rim in order, lines INDEX or INDEX U V")
+          ->check(notEmpty)
+          ->type_name("TEXT");
+  command->add_option("--cut", settings->cut, "Text file of paths along edges to cut, a line of indices for each")
       ->check(notEmpty)
+      ->excludes(rim)
       ->type_name("TEXT");
 }

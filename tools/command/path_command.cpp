@@ -25,6 +25,9 @@ to it is shorter.
 
 Files in DIR, which replace older ones when all are complete:
   path.npy      K x 3, float64: the two ends, and where the path crosses edges between points
+  lines.ply     the path as points and the edges between them
+  lines.obj     the path as points and an element l
+  lines.svg     a plan of the path to scale, seen from above, y up
   distance.npy  N distances from --from, float64, as `tufted distance` computes them
   points.ply    the points with the field distance, float32; points.pcd with --format pcd
   report.json   ends, length, seconds
@@ -37,7 +40,7 @@ struct Settings {
   std::string from, to;
   std::vector<Place> ends;
 
-  std::vector<std::string> files() const { return {"path.npy", "distance.npy"}; }
+  std::vector<std::string> files() const { return {"path.npy", "distance.npy", "lines.ply", "lines.obj", "lines.svg"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
@@ -55,6 +58,7 @@ Results compute(Settings& settings, Operator& source) {
   const tufted::DistanceSolver distances(source.laplacian, {.solver = source.solverOptions()});
   results.arrays = {{.name = "path", .values = path.points, .per_point = false},
                     {.name = "distance", .values = distances.query({ends[0]}, nullptr, source.progress)}};
+  results.lines = {{.points = path.points, .length = path.length}};
   results.report["from_point"] = ends[0];
   results.report["to_point"] = ends[1];
   results.report["length"] = path.length;

@@ -19,7 +19,7 @@ fs::path wholePath(const fs::path& path) {
 bool namesInput(const CLI::Option& option) {
   if (option.get_positional()) return true;
   const std::string type = option.get_type_name();
-  return type == "TEXT" || type == "NPY" || (type == "DIR" && option.get_name() != "--out");
+  return type == "TEXT" || type == "NPY" || type == "SOURCE" || (type == "DIR" && option.get_name() != "--out");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ struct NamedInput {
 };
 
 /// All files and folders that a command reads, after parsing: arguments without an option, and values of options of the
-/// types TEXT, NPY and DIR except --out.
+/// types TEXT, NPY, SOURCE and DIR except --out.
 std::vector<NamedInput> inputsOf(const CLI::App& command);
 
 /// Whether two paths name one file, which need not exist.

@@ -16,7 +16,7 @@ using tufted::SceneField;
 
 bool isShown(const std::string& name) {
   return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "component_edges", "M",
-                         "status", "representative", "components", "path", "isolines"});
+                         "corner_uv", "status", "representative", "components", "path", "isolines"});
 }
 
 FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
@@ -52,6 +52,7 @@ std::vector<std::string> columnNamesOf(const std::string& name, Eigen::Index col
   if (name == "logmap") return {"logarithmic map"};
   if (name == "curvature" && (columns == 1 || columns == 4))
     return {"mean H", "Gaussian K", "greatest k1", "least k2"};  // names short enough for legends
+  if (name == "image" && columns == 3) return {"x of the image", "y of the image", "z of the image"};
   std::vector<std::string> names;
   for (Eigen::Index k = 0; name == "evecs" && k < columns; ++k) names.push_back("eigenvector " + std::to_string(k));
   return names;

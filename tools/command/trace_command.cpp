@@ -33,6 +33,7 @@ Files in DIR, which replace older ones when all are complete:
   path.npy     K x 3, float64: the start, where the line crosses edges and passes vertices, and the end
   lines.ply    the same points and the edges between them
   lines.obj    the same points and an element l
+  lines.svg    a plan of the line to scale, seen from above, y up
   points.ply   the points; points.pcd with --format pcd
   report.json  length, why the line ends (length, rim, branch or crossings), the triangle there, barycentric
                coordinates in it, and the direction at the end
@@ -50,7 +51,7 @@ struct Settings {
   std::vector<tufted::SurfacePoint> starts;
   Eigen::RowVector3d direction = Eigen::RowVector3d::Zero();
 
-  std::vector<std::string> files() const { return {"path.npy", "lines.ply", "lines.obj"}; }
+  std::vector<std::string> files() const { return {"path.npy", "lines.ply", "lines.obj", "lines.svg"}; }
 };
 
 void check(Settings& settings, const Operator& source) {

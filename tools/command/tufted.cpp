@@ -60,7 +60,7 @@ const Purpose purposes[] = {
     {"Distances and directions along the surface",
      {addDistance, addPath, addTrace, addSignedDistance, addLogmap, addTransport}},
     {"Values on the surface", {addIsolines, addInterpolate, addExtend, addWeights, addPoisson, addGreen}},
-    {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter}},
+    {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter, addMap}},
     {"Shape", {addNormals, addCurvature, addSegment, addParameterize}},
     {"Moving the points", {addDenoise, addSmooth, addMinimal, addDeform}}};
 

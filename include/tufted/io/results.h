@@ -27,7 +27,7 @@ struct ResultOptions {
   std::vector<Format> copies = {Format::ply};       ///< copies of the points with the results as fields: ply, pcd, las
   std::string report = "{}\n";                      ///< content of report.json, a JSON object
   Progress progress = {};                           ///< called between files; returning false leaves no file
-  std::optional<std::vector<Polyline>> lines = {};  ///< lines on the surface, written as lines.ply and lines.obj
+  std::optional<std::vector<Polyline>> lines = {};  ///< lines on the surface, written as lines.ply, .obj and .svg
 };
 
 /// Names of the files that writeResults() writes.
@@ -40,6 +40,8 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 ///   file_row.npy           int32, the field of select(), if the points have it
 ///   lines.ply              with options.lines: their points with `value` (float64) and edges between them
 ///   lines.obj              with options.lines: an element `l` per line, of closed ones with the first point again
+///   lines.svg              with options.lines: a plan to scale, seen from above, x to the right and y up; colours by
+///                          `value`, and a legend unless all values are 0. Lines that are not finite are left out.
 ///   report.json            options.report, and as `files` the names of all files of this result
 /// @param laplacian from which the results were computed; empty, as `Laplacian()`, if there is none: the copies then
 /// have no mass, boundary, status and representative

@@ -193,7 +193,8 @@ class Shape:
         moved[moving] = (x * size[labels] + middle[labels]) * unit
         return np.where((self.status == 2)[:, None], moved[self.representative], moved)
 
-    def parameterize(self, *, method="conformal", weights="laplacian", rim=None, rim_positions=None, progress=None):
+    def parameterize(self, *, method="conformal", weights="laplacian", rim=None, rim_positions=None, cuts=None,
+                     progress=None):
         """Lays the surface out in the plane.
 
         method: "conformal" preserves angles as well as possible and leaves the rim free; "harmonic" has the rim on a
@@ -201,6 +202,9 @@ class Shape:
         weights: of harmonic maps: those of the "laplacian", or "mean-value", which flip no triangle.
         rim: of harmonic maps: the points of the rim in order; None: that of the triangles. rim_positions: one row u, v
         for each.
+        cuts: paths along edges, a list of points for each, along which the surface is cut open to a disk. A point on a
+        cut has several places, so uv then is F x 3 x 2, for the corners of faces or of triangles(). Not with rim, and
+        for harmonic maps with mean-value weights alone.
         Returns uv (N x 2, NaN where a point has no place), quasi_conformal_error (1: angles are preserved), triangles
         (how many were laid out), flipped and collapsed (how many of these are flipped, or lower than 1e-7 of the map)
         and not_mapped (points where uv is NaN).
@@ -212,9 +216,13 @@ class Shape:
             places, _ = check.columns("parameterize", "rim_positions", rim_positions, where.size)
             if places.shape[1] != 2:
                 raise InvalidInput(f"parameterize: rim_positions has {places.shape[1]} columns, must have 2")
+        if cuts is not None:
+            cuts = [check.indices("parameterize", "cuts", each, len(self)) for each in cuts]
         result = Parameterization(*_tufted.parameterize(
-            self._laplacian, self._surface_faces("parameterize"), method, weights, where, places, self._solver(),
-            check.callback("parameterize", progress)))
+            self._laplacian, self._surface_faces("parameterize"), method, weights, where, places, cuts,
+            self._solver(), check.callback("parameterize", progress)))
+        if cuts is not None:
+            result = result._replace(uv=result.uv.reshape(-1, 3, 2))
         if result.collapsed > 0:
             warnings.warn(f"parameterize: {result.collapsed} triangles are lower in the plane than 1e-7 of the map",
                           TuftedWarning, stacklevel=2)

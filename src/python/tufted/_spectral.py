@@ -136,8 +136,8 @@ class Spectral:
         k = self._count(None, k, True)
         kept = self._kept_pairs()
         if kept is None or len(kept.values) < k:
-            return self.spectrum(k, progress=progress)
-        return Spectrum(kept.values[:k], kept.vectors[:, :k])
+            return self._pairs(k, True, 1e-10, progress)
+        return _tufted.Spectrum(kept.values[:k], kept.vectors[:, :k])
 
     def _kept_pairs(self):
         """The pairs of the last call of spectrum() with its defaults for all but k, or None."""

@@ -1,0 +1,327 @@
+// Functional maps (Ovsjanikov et al. 2012) and ZoomOut (Melzi et al. 2019).
+#include "tufted/shape_maps.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/number_text.h"
+#include "neighbors/morton.h"
+#include "neighbors/nearest_rows.h"
+#include "tufted/check.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr int energies = 100;              ///< of wave kernels, as Aubry et al. take
+constexpr double kernel_steps = 7;         ///< width of a wave kernel in steps of the energy, by Aubry et al.
+constexpr double least_width = 1e-8;       ///< of a wave kernel: far above the rounding of logarithms
+constexpr int candidates_per_sample = 10;  ///< see ZoomOutOptions::samples
+
+[[noreturn]] void refuse(const std::string& function, const std::string& why) {
+  throw InvalidInput(function + ": " + why);
+}
+
+void requireAtLeast(const std::string& function, const char* name, int value, int least) {
+  if (value < least)
+    refuse(function, std::string(name) + " = " + std::to_string(value) + ", must be at least " + std::to_string(least));
+}
+
+/// The first eigenpairs of a shape scaled to area 1, at all its points.
+struct Basis {
+  const Laplacian& laplacian;
+  VectorXd values;   ///< k
+  MatrixXd vectors;  ///< N x k
+  VectorXd masses;   ///< N
+  Basis(const std::string& function, const MappedShape& shape, Index k) : laplacian(shape.laplacian) {
+    checkSizes(function, laplacian);
+    const Spectrum& pairs = shape.spectrum;
+    const auto n = std::ssize(laplacian.status);
+    if (pairs.vectors.rows() != n || pairs.vectors.cols() != pairs.values.size())
+      refuse(function, "a spectrum has " + std::to_string(pairs.values.size()) + " values and vectors of " +
+                           std::to_string(pairs.vectors.rows()) + " x " + std::to_string(pairs.vectors.cols()) +
+                           ", must have one vector of " + std::to_string(n) + " per value");
+    const double area = laplacian.M.sum();
+    if (!(area > 0)) refuse(function, "a shape has the area 0, must have points that take part");
+    values = area * pairs.values.head(k);
+    vectors = std::sqrt(area) * pairs.vectors.leftCols(k);
+    masses = laplacian.M / area;
+  }
+
+  bool takesPart(int i) const { return laplacian.status[laplacian.representative[i]] == PointStatus::active; }
+  std::vector<int> points() const {
+    std::vector<int> all;
+    for (int i = 0; i < masses.size(); ++i)
+      if (takesPart(i)) all.push_back(i);
+    return all;
+  }
+  /// About `count` points that take part, evenly spread: along a Morton curve, one from each equal share of the area.
+  /// All if there are no more, or for 0.
+  std::vector<int> sample(std::int64_t count) const {
+    std::vector<PointStatus> status;
+    std::vector<int> representative, all, found;
+    for (const int i : rankPoints(laplacian.positions, status, representative).input_index)
+      if (laplacian.status[i] == PointStatus::active && masses[i] > 0) all.push_back(i);
+    if (count == 0 || std::ssize(all) <= count) return all;
+    double passed = 0;
+    for (const int i : all) {
+      const double before = std::floor(passed * static_cast<double>(count));
+      passed += masses[i];
+      if (std::floor(passed * static_cast<double>(count)) > before) found.push_back(i);
+    }
+    return found;
+  }
+  VectorXd norms(const MatrixXd& functions) const {
+    return (masses.transpose() * functions.cwiseAbs2()).transpose().cwiseSqrt();
+  }
+  /// The first k coefficients of functions divided by their norms.
+  MatrixXd coefficients(const MatrixXd& functions, Index k) const {
+    const VectorXd norms = this->norms(functions);
+    return vectors.leftCols(k).transpose() * (masses.asDiagonal() * functions) *
+           norms.unaryExpr([](double norm) { return norm > 0 ? 1 / norm : 1; }).asDiagonal();
+  }
+  /// Weights of eigenpairs at logarithms of eigenvalues; 0 for the null space.
+  MatrixXd waveWeights(const VectorXd& logarithms, double width) const {
+    MatrixXd weights(values.size(), logarithms.size());
+    for (Index e = 0; e < weights.cols(); ++e) {
+      const VectorXd exponents = values.unaryExpr([&](double value) {
+        const double widths = (std::log(value) - logarithms[e]) / width;  // log(0) is -infinity, and its weight 0
+        return -widths * widths / 2;
+      });
+      // Far from all eigenvalues the nearest one counts.
+      weights.col(e) = (exponents.array() - exponents.maxCoeff()).exp();
+      weights.col(e) /= weights.col(e).sum();
+    }
+    return weights;
+  }
+};
+
+/// Bases of equally many pairs, at most `most`.
+struct Bases {
+  Basis source, target;
+  Bases(const std::string& function, const MappedShape& a, const MappedShape& b,
+        Index most = std::numeric_limits<Index>::max())
+      : source(function, a, std::min({most, a.spectrum.values.size(), b.spectrum.values.size()})),
+        target(function, b, source.values.size()) {}
+  Index size() const { return source.values.size(); }
+  void checkMap(const std::string& function, const MatrixXd& C) const {
+    if (C.rows() != C.cols() || C.rows() < 1 || C.rows() > size())
+      refuse(function, "C is " + std::to_string(C.rows()) + " x " + std::to_string(C.cols()) +
+                           ", must be k x k with k at most " + std::to_string(size()) +
+                           ", the eigenpairs that both shapes have");
+    if (!C.allFinite()) refuse(function, "C has a value that is not finite");
+  }
+};
+
+/// The first coefficients of the functions that are 1 at one of the points, and where C, k x k, carries them.
+RowsOfNumbers pointsOf(const Basis& basis, const std::vector<int>& points, Index k) {
+  return basis.vectors(points, Eigen::seqN(0, k));
+}
+RowsOfNumbers imagesOf(const Basis& source, const std::vector<int>& points, const MatrixXd& C) {
+  return pointsOf(source, points, C.cols()) * C.transpose();
+}
+
+/// For each row of `asked` that of the candidates whose row of `places` is nearest.
+std::vector<int> nearestOf(const RowsOfNumbers& places, const std::vector<int>& candidates, const RowsOfNumbers& asked,
+                           const Workers& workers) {
+  std::vector<int> found = nearestRows(places, asked, workers);
+  for (int& i : found) i = candidates[i];
+  return found;
+}
+
+/// C, k x k, that fits best to a map from some points of the target to those of the source; negative ones are left out.
+MatrixXd pulled(const Bases& bases, const std::vector<int>& points, const std::vector<int>& mapped, Index k) {
+  std::vector<int> from, to;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (mapped[i] < 0) continue;
+    from.push_back(points[i]);
+    to.push_back(mapped[i]);
+  }
+  const MatrixXd images = bases.source.vectors(to, Eigen::seqN(0, k));
+  return bases.target.vectors(from, Eigen::seqN(0, k)).eval().completeOrthogonalDecomposition().solve(images);
+}
+
+/// Functions on both shapes that correspond, and the square roots of their weights.
+struct Descriptors {
+  MatrixXd source, target;
+  VectorXd weights;
+};
+
+void checkDescriptors(const std::string& function, const Basis& basis, const char* name, const MatrixXd& given) {
+  if (given.rows() != basis.masses.size())
+    refuse(function, std::string(name) + " have " + std::to_string(given.rows()) + " rows, must have " +
+                         std::to_string(basis.masses.size()));
+  for (const int i : basis.points())
+    if (!given.row(i).allFinite())
+      refuse(function, "descriptors have a value that is not finite at a point that takes part");
+}
+
+/// @param given N x D; without columns: wave kernel signatures
+/// @param side 0: the source, 1: the target
+MatrixXd compared(const std::string& function, const Basis& basis, const MatrixXd& waves, const MatrixXd& given,
+                  const FunctionalMapOptions& options, int side) {
+  MatrixXd all = given.cols() > 0 ? given : MatrixXd(basis.vectors.cwiseAbs2() * waves);
+  for (int i = 0; i < all.rows(); ++i)
+    if (!basis.takesPart(i)) all.row(i).setZero();
+  const Index own = all.cols();
+  all.conservativeResize(Eigen::NoChange, own + std::ssize(options.landmarks) * waves.cols());
+  for (Index l = 0; l < std::ssize(options.landmarks); ++l) {
+    const int place = options.landmarks[l][side];
+    if (place < 0 || place >= basis.masses.size())
+      refuse(function, "landmarks has " + std::to_string(place) + ", must lie in [0, " +
+                           std::to_string(basis.masses.size()) + ")");
+    if (!basis.takesPart(place))
+      refuse(function, "landmarks has " + std::to_string(place) + ", a point of the " +
+                           (side == 0 ? "source" : "target") + " that takes no part");
+    all.middleCols(own + l * waves.cols(), waves.cols()).noalias() =
+        basis.vectors * (basis.vectors.row(place).transpose().asDiagonal() * waves);
+  }
+  return all;
+}
+
+Descriptors descriptorsOf(const std::string& function, const Bases& bases, const FunctionalMapOptions& options) {
+  const auto positive = [](const Basis& basis) { return (basis.values.array() > 0).count(); };
+  if (std::min(positive(bases.source), positive(bases.target)) < 2)
+    refuse(function, "fewer than two eigenvalues are positive: too few points take part");
+  // Energies that lie within the spectra of both shapes.
+  const auto first = [&](const Basis& basis) { return basis.values[basis.values.size() - positive(basis)]; };
+  const double one = std::log(std::max(first(bases.source), first(bases.target)));
+  const double other = std::log(std::min(bases.source.values.tail(1)[0], bases.target.values.tail(1)[0]));
+  const VectorXd logarithms = VectorXd::LinSpaced(energies, std::min(one, other), std::max(one, other));
+  const double width = std::max(kernel_steps * (logarithms[1] - logarithms[0]), least_width);
+  const MatrixXd &a = options.source_descriptors, &b = options.target_descriptors;
+  if (a.cols() != b.cols())
+    refuse(function, "descriptors have " + std::to_string(a.cols()) + " and " + std::to_string(b.cols()) +
+                         " columns, must have as many");
+  if (a.cols() > 0) {
+    checkDescriptors(function, bases.source, "descriptors of the source", a);
+    checkDescriptors(function, bases.target, "descriptors of the target", b);
+  }
+  Descriptors found;
+  found.source = compared(function, bases.source, bases.source.waveWeights(logarithms, width), a, options, 0);
+  found.target = compared(function, bases.target, bases.target.waveWeights(logarithms, width), b, options, 1);
+  found.weights = VectorXd::Ones(found.source.cols());
+  if (options.weights.size() > 0) {
+    if (options.weights.size() != a.cols())
+      refuse(function, "weights has " + std::to_string(options.weights.size()) + " values, must have " +
+                           std::to_string(a.cols()) + ", one per column of the descriptors");
+    for (const double weight : options.weights)
+      if (!(weight >= 0 && std::isfinite(weight)))
+        refuse(function, "weights has " + numberText(weight) + ", must be finite and at least 0");
+    found.weights.head(a.cols()) = options.weights.cwiseSqrt();
+  }
+  if ((found.weights.cwiseProduct(bases.source.norms(found.source)).cwiseProduct(bases.target.norms(found.target)))
+          .isZero(0))
+    refuse(function, "descriptors have no column that is not 0 and has a weight above 0, must have one");
+  return found;
+}
+
+MatrixXd refined(const Bases& bases, MatrixXd C, const std::vector<int>& points, const ZoomOutOptions& options) {
+  const Index k = std::min<Index>(options.k, bases.size());
+  const std::vector<int> candidates = bases.source.sample(
+      candidates_per_sample * std::max<std::int64_t>(options.samples, 2 * k) * (options.samples > 0 ? 1 : 0));
+  const Progress silent;
+  const Workers turns(1, options.progress), workers(options.threads, silent);
+  while (C.rows() < k) {
+    turns.report("refine map", static_cast<double>(C.rows()) / static_cast<double>(k));
+    const std::vector<int> found =
+        nearestOf(imagesOf(bases.source, candidates, C), candidates, pointsOf(bases.target, points, C.rows()), workers);
+    C = pulled(bases, points, found, std::min<Index>(k, C.rows() + options.step));
+  }
+  return C;
+}
+
+/// The points of the target that take part in the turns of zoomOut().
+std::vector<int> samplePoints(const Bases& bases, const ZoomOutOptions& options) {
+  requireAtLeast("zoomOut", "k", options.k, 1);
+  requireAtLeast("zoomOut", "step", options.step, 1);
+  requireAtLeast("zoomOut", "samples", options.samples, 0);
+  return bases.target.sample(options.samples > 0 ? std::max<std::int64_t>(options.samples, 2 * std::int64_t{options.k})
+                                                 : 0);
+}
+
+}  // namespace
+
+MatrixXd functionalMap(const MappedShape& source, const MappedShape& target, const FunctionalMapOptions& options) {
+  const std::string function = "functionalMap";
+  requireAtLeast(function, "k", options.k, 1);
+  if (!(options.commutativity >= 0 && std::isfinite(options.commutativity)))
+    refuse(function, "commutativity = " + numberText(options.commutativity) + ", must be finite and at least 0");
+  const Bases bases(function, source, target);
+  const Index k = std::min<Index>(options.k, bases.size());
+  const Descriptors found = descriptorsOf(function, bases, options);
+  const VectorXd factors = found.weights / std::sqrt(static_cast<double>(found.weights.size()));
+  const MatrixXd A = bases.source.coefficients(found.source, k) * factors.asDiagonal();
+  const MatrixXd B = bases.target.coefficients(found.target, k) * factors.asDiagonal();
+  const VectorXd D = bases.source.values.head(k), E = bases.target.values.head(k);
+  const double largest = std::max({D[k - 1], E[k - 1], std::numeric_limits<double>::min()});
+  const MatrixXd gram = A * A.transpose(), right = A * B.transpose();
+  MatrixXd C(k, k);
+  const Workers workers(1, options.progress);
+  for (Index row = 0; row < k; ++row) {
+    workers.report("functional map", static_cast<double>(row) / static_cast<double>(k));
+    MatrixXd system = gram;
+    system.diagonal().array() += options.commutativity * ((D.array() - E[row]) / largest).square();
+    // The solution of least norm: several descriptors may be too few for a regular matrix.
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
+    solver.setThreshold(static_cast<double>(k) * std::numeric_limits<double>::epsilon());
+    C.row(row) = solver.compute(system).solve(right.col(row)).transpose();
+  }
+  return C;
+}
+
+MatrixXd zoomOut(const MappedShape& source, const MappedShape& target, const MatrixXd& C,
+                 const ZoomOutOptions& options) {
+  const Bases bases("zoomOut", source, target, std::max<Index>(options.k, C.rows()));
+  bases.checkMap("zoomOut", C);
+  return refined(bases, C, samplePoints(bases, options), options);
+}
+
+MatrixXd zoomOut(const MappedShape& source, const MappedShape& target, const std::vector<int>& to_source,
+                 const ZoomOutOptions& options) {
+  const std::string function = "zoomOut";
+  const Bases bases(function, source, target, std::max(options.k, 1));
+  const auto n = bases.source.masses.size();
+  if (std::ssize(to_source) != bases.target.masses.size())
+    refuse(function, "to_source has " + std::to_string(to_source.size()) + " indices, must have " +
+                         std::to_string(bases.target.masses.size()) + ", one for each point of the target");
+  for (const int i : to_source)
+    if (i >= n) refuse(function, "to_source has " + std::to_string(i) + ", must be below " + std::to_string(n));
+  const std::vector<int> known = bases.target.points(), points = samplePoints(bases, options);
+  std::vector<int> mapped;
+  for (const int i : known) mapped.push_back(to_source[i]);
+  if (std::none_of(mapped.begin(), mapped.end(), [](int i) { return i >= 0; }))
+    refuse(function, "to_source has no index of at least 0 at points that take part, must have one");
+  const MatrixXd start = pulled(bases, known, mapped, std::min<Index>({options.k, options.step, bases.size()}));
+  return refined(bases, start, points, options);
+}
+
+PointMaps pointMaps(const MappedShape& source, const MappedShape& target, const MatrixXd& C, int threads,
+                    const Progress& progress) {
+  const Bases bases("pointMaps", source, target, std::max<Index>(C.rows(), 1));
+  bases.checkMap("pointMaps", C);
+  const Workers workers(threads, progress);
+  const std::vector<int> first = bases.source.points(), second = bases.target.points();
+  const RowsOfNumbers images = imagesOf(bases.source, first, C), places = pointsOf(bases.target, second, C.rows());
+  const auto spread = [](const Basis& from, const std::vector<int>& points, const std::vector<int>& found) {
+    std::vector<int> all(from.laplacian.status.size(), -1);
+    for (std::size_t i = 0; i < points.size(); ++i) all[points[i]] = found[i];
+    return all;
+  };
+  // A coincident point is as near as its representative, which comes first, and is not to be found instead of it.
+  const auto represented = [](const Basis& to, std::vector<int> found) {
+    for (int& i : found) i = to.laplacian.representative[i];
+    return found;
+  };
+  return {spread(bases.source, first, represented(bases.target, nearestOf(places, second, images, workers))),
+          spread(bases.target, second, represented(bases.source, nearestOf(images, first, places, workers)))};
+}
+
+}  // namespace tufted

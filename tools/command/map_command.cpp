@@ -1,0 +1,166 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "operator.h"
+#include "options.h"
+#include "point_options.h"
+#include "tufted/errors.h"
+#include "tufted/shape_maps.h"
+#include "warnings.h"
+
+namespace map_command {
+namespace {
+
+constexpr const char* description = "Map another shape to the surface: which point corresponds to which.";
+
+constexpr const char* footer =
+    R"(Examples:
+  tufted map bent.off --from flat.off --out maps
+  tufted map bent.off --from flat.off --landmarks pairs.txt --count 60 --out maps --png maps.png
+
+FILE is the target and --from the source; both are clouds or meshes, in any unit. A functional map of 30 eigenpairs is
+found from wave kernel signatures at energies that both shapes share, and from wave kernels around the landmarks. It is
+refined by ZoomOut to --count eigenpairs. Shapes that are their own mirror image have two maps of equal cost: landmarks,
+pairs of corresponding points off the plane of symmetry, decide.
+The options of choosing points apply to FILE, those of building clouds to FILE and, if it is a cloud, to the source, and
+all others to both shapes.
+
+Files in DIR, which replace older ones when all are complete:
+  to_source.npy  N', int32: for each point of FILE the corresponding one of the source; -1 at points that take no part
+  to_target.npy  N, int32: for each point of the source the corresponding one of FILE
+  image.npy      N' x 3, float64: positions of the points to_source, NaN where there is none
+  map.npy        K x K, float64: from coefficients of functions on the source to those on FILE, in bases of norm 1
+  points.ply     the points of FILE with the fields image and to_source, float32; points.pcd with --format pcd
+  report.json    there_and_back: mean distance of points from where they come back to, over the root of the area
+`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
+`tufted laplacian --out DIR` wrote.)";
+
+struct Settings {
+  OperatorSettings source;  ///< of FILE, the target
+  Input from;
+  Build build;  ///< of the source
+  tufted::Geometry shape;
+  std::filesystem::path landmarks;
+  int count = 100;
+  tufted::FunctionalMapOptions options;
+
+  std::vector<std::string> files() const { return {"image.npy", "to_source.npy", "to_target.npy", "map.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  settings.from.as = settings.source.input.as;
+  settings.from.weld = settings.source.input.weld;
+  settings.build = settings.source.build;
+  refuseTooMany(settings.from);
+  settings.shape = readInput(settings.from, source.progress);
+  if (settings.shape.is_mesh)
+    settings.build.cloud_only.clear();  // these options are meant for FILE, if that is a cloud
+  settings.source.stages = spectralStages(settings.count);
+  settings.source.shown = {{"image", 3}};
+  const auto rows = static_cast<double>(settings.shape.points.rows());
+  settings.options.landmarks.clear();
+  if (settings.landmarks.empty()) return;
+  for (const Row& row : readRows(settings.landmarks)) {
+    if (row.numbers.size() != 2) throw tufted::IoError(row.name + ": is not SOURCE TARGET, two indices");
+    const double first = row.numbers[0];
+    if (!(first >= 0 && first < rows && first == std::floor(first)))
+      throw tufted::InvalidInput(row.name + ": " + numberText(first) + " is no index in [0, " + numberText(rows) +
+                                 "), the points of " + settings.from.name());
+    const Place place = placeOf({row.numbers[1]}, source, row.name);
+    settings.options.landmarks.push_back({static_cast<int>(first), place.index});
+  }
+}
+
+/// As many of the first eigenpairs as there are, at most `count`.
+/// @throws IoError if nothing takes part
+tufted::Spectrum pairsOf(const std::string& name, const tufted::Laplacian& laplacian, int count,
+                         const Operator& source) {
+  const int most = tufted::mostEigenpairs(laplacian);
+  if (most == 0) throw tufted::IoError(name + ": " + nothingActive(laplacian));
+  return tufted::spectrum(laplacian, std::min(count, most), source.spectrumOptions());
+}
+
+Eigen::MatrixXd columnOf(const std::vector<int>& points) {
+  return Eigen::Map<const Eigen::VectorXi>(points.data(), std::ssize(points)).cast<double>();
+}
+
+/// The mean distance of points from where a map and its inverse bring them, over the root of the area.
+double thereAndBack(const tufted::PointMaps& maps, const tufted::Laplacian& laplacian) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < maps.to_source.size(); ++i) {
+    if (maps.to_source[i] < 0) continue;
+    const int back = maps.to_target[static_cast<std::size_t>(maps.to_source[i])];
+    sum += (laplacian.positions.row(back) - laplacian.positions.row(laplacian.representative[i])).stableNorm();
+    ++count;
+  }
+  return sum / count / std::sqrt(laplacian.M.sum());
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  const std::string name = settings.from.name();
+  const tufted::Laplacian other = buildLaplacian(settings.shape, settings.from, settings.build, false, source.progress);
+  results.warnings = settings.shape.notes;
+  for (const std::string& line : warningsOf(name, other.report)) results.warnings.push_back(line);
+  constexpr int least_pairs = 100;  // wave kernel signatures of fewer tell less, see FunctionalMapOptions
+  const int pairs = std::max(settings.count, least_pairs);
+  const tufted::Spectrum first = pairsOf(name, other, pairs, source);
+  const tufted::Spectrum second = pairsOf(source.name, source.laplacian, pairs, source);
+  const tufted::MappedShape from = {other, first}, to = {source.laplacian, second};
+  settings.options.k = std::min(settings.options.k, settings.count);
+  settings.options.progress = source.progress;
+  const Eigen::MatrixXd start = tufted::functionalMap(from, to, settings.options);
+  const Eigen::MatrixXd C =
+      tufted::zoomOut(from, to, start, {.k = settings.count, .threads = source.threads, .progress = source.progress});
+  const tufted::PointMaps maps = tufted::pointMaps(from, to, C, source.threads, source.progress);
+  Eigen::MatrixXd image(std::ssize(maps.to_source), 3);
+  for (Eigen::Index i = 0; i < image.rows(); ++i) {
+    const int point = maps.to_source[static_cast<std::size_t>(i)];
+    if (point < 0)
+      image.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    else
+      image.row(i) = settings.shape.points.row(point);
+  }
+  const double back = thereAndBack(maps, source.laplacian);
+  results.report["from"] = name;
+  results.report["eigenpairs"] = C.rows();
+  results.report["landmarks"] = settings.options.landmarks.size();
+  results.report["there_and_back"] = back;
+  results.summary.add("eigenpairs", "%ld, %zu landmarks", static_cast<long>(C.rows()),
+                      settings.options.landmarks.size());
+  results.summary.add("there and back", "%.3g of the root of the area, mean distance", back);
+  results.shown = {{.name = "image", .values = image}};
+  results.arrays = {{.name = "image", .values = std::move(image)},
+                    {.name = "to_source", .values = columnOf(maps.to_source), .is_integer = true},
+                    {.name = "to_target", .values = columnOf(maps.to_target), .per_point = false, .is_integer = true},
+                    {.name = "map", .values = C, .per_point = false}};
+  return results;
+}
+
+}  // namespace
+}  // namespace map_command
+
+void addMap(CLI::App& app, Run& run) {
+  using namespace map_command;
+  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "map", description, footer, compute, check);
+  command->add_option("--from", settings->from.file, "The other shape, a cloud or a mesh")
+      ->required()
+      ->check(notEmpty)
+      ->type_name("SOURCE");
+  command
+      ->add_option("--landmarks", settings->landmarks,
+                   "Text file of pairs of corresponding points, lines SOURCE TARGET of their indices")
+      ->check(notEmpty)
+      ->type_name("TEXT");
+  addNumber(*command, "--count", settings->count, 2, 10000, "Number of eigenpairs of the map, zeros included (100)")
+      ->type_name("K");
+  addNumber(*command, "--commutativity", settings->options.commutativity, 0., std::numeric_limits<double>::max(),
+            "How much the first map is asked to commute with the Laplacians (0.03)")
+      ->type_name("W");
+}
