@@ -1,5 +1,7 @@
 #include "neighbors/kd_forest.h"
 
+#include <stdlib.h>  // FLANN includes it, and its `using std::malloc` must come before the macro below
+
 #include <cstdio>
 #include <cstdlib>
 #include <new>
