@@ -29,6 +29,7 @@ ls -l "$out"/*.deb "$out"/*.whl "$out"/*.tar.gz
 
 debootstrap --variant=minbase "$VERSION_CODENAME" "$root" "$@" >"$out/debootstrap.log"
 mkdir "$root/tufted"
+echo 'Dpkg::Use-Pty "false";' >"$root/etc/apt/apt.conf.d/no-terminal"
 cp -r "$out"/*.deb "$out"/*.whl include tests docs README.md datasets "$root/tufted"
 
 # clean COMMAND: runs it in the new Debian.
@@ -41,7 +42,7 @@ clean 'apt-get update -qq
        dpkg-query -W -f "\${Package} \${Version} \${Installed-Size} KiB\n" "*tufted*"'
 clean 'tufted --version | head -n 1; tufted laplacian datasets/sphere_uniform.ply --out /tmp/sphere | head -n 3'
 clean 'ldd /usr/bin/tufted | grep -c "=> /"; man -w tufted 2>/dev/null || ls /usr/share/man/man1/tufted.1*'
-clean 'cd /; python3 -c "import tufted; print(tufted.version, tufted.__file__)"'
+clean 'cd /; python3 -c "import tufted; print(tufted.__version__, tufted.__file__)"'
 # The core is used with Eigen's headers and no others.
 clean 'apt-get install -y -qq --no-install-recommends ./libtufted-dev_*.deb g++ cmake make pkg-config >/dev/null
        for header in CGAL flann pcl-1.13/pcl suitesparse tbb lz4.h; do test ! -e /usr/include/$header; done
@@ -49,10 +50,10 @@ clean 'apt-get install -y -qq --no-install-recommends ./libtufted-dev_*.deb g++ 
        cmake --build /tmp/consumer >/dev/null; ctest --test-dir /tmp/consumer | tail -n 4
        g++ -std=c++17 tests/consumer/main.cpp -o /tmp/by_pkg_config $(pkg-config --cflags --libs tufted)
        /tmp/by_pkg_config && echo "built by pkg-config"'
-# The wheel has the core inside.
-clean 'apt-get purge -y -qq python3-tufted libtufted* >/dev/null
-       apt-get install -y -qq --no-install-recommends python3-venv libtbb12 libcholmod3 libfreetype6 liblz4-1 >/dev/null
+# The wheel has the libraries of the project inside; those of others were installed above.
+clean 'dpkg --purge python3-tufted tufted libtufted-dev libtufted0.2 >/dev/null
+       apt-get install -y -qq --no-install-recommends python3-venv >/dev/null
        python3 -m venv --system-site-packages /tmp/venv
        /tmp/venv/bin/pip install -q --no-index --no-deps ./*.whl
-       cd /; /tmp/venv/bin/python -c "import tufted; print(tufted.version, tufted.__file__)"'
+       cd /; /tmp/venv/bin/python -c "import tufted; print(tufted.__version__, tufted.__file__)"'
 echo "== all of it works"
