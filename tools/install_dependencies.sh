@@ -18,14 +18,14 @@ command_packages=(
   libeigen3-dev libflann-dev liblz4-dev libcgal-dev libtbb-dev      # the core
   libsuitesparse-dev libopenblas-dev  # CHOLMOD, and the BLAS that it finds through Debian's alternatives: the reference
                                       # BLAS, which it takes otherwise, makes a factorisation 2 to 4 times slower
-  liblzf-dev libzip-dev nlohmann-json3-dev libcli11-dev  # files and the command
-  zlib1g-dev libpng-dev libfreetype-dev  # pages and pictures to look at
+  nlohmann-json3-dev libcli11-dev  # files and the command
+  zlib1g-dev libpng-dev libfreetype-dev  # archives, pages and pictures
 )
 pcl_packages=(libpcl-dev)
 python_packages=(python3 python3-dev pybind11-dev python3-numpy python3-scipy python3-pip python3-venv)
 other_packages=(
   help2man  # the manual pages of the command
-  libgtest-dev libgmock-dev libspectra-dev libbenchmark-dev  # tests and benchmark
+  libgtest-dev libgmock-dev libzip-dev libspectra-dev libbenchmark-dev  # tests and benchmark
 )
 check_packages=(clang clang-format-14 doxygen python3-pytest)
 

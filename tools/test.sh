@@ -121,7 +121,7 @@ fi
 if [[ $extent == all ]]; then
   preset sanitized-gpl || true
   preset threads || true
-  # Without tufted::io and tufted::pcl the package may not ask for PCL or libzip.
+  # Without tufted::io and tufted::pcl the package may not ask for PCL.
   step "core: configure" cmake --preset core "${configure_arguments[@]}" &&
     step "core: build" build core &&
     consumer installed-core build/core -DCMAKE_DISABLE_FIND_PACKAGE_PclParts=ON || true

@@ -40,4 +40,5 @@
 #include "tufted/tracing.h"
 #include "tufted/types.h"
 #include "tufted/vector_heat.h"
+#include "tufted/version.h"
 #include "tufted/weights.h"

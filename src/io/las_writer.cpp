@@ -14,6 +14,7 @@
 #include "io/output_buffer.h"
 #include "io/point_table.h"
 #include "tufted/errors.h"
+#include "tufted/version.h"
 
 // Writes LAS 1.4 (ASPRS, LAS Specification 1.4 R15). A field whose name and type are those of an item of the point
 // format becomes that item again, all others become extra bytes.

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <zip.h>
-
 #include <filesystem>
-#include <memory>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "io/npy.h"
+#include "io/zip_reader.h"
 
 namespace tufted::io {
 
@@ -26,11 +25,8 @@ class NpzArray {
 
  private:
   friend class NpzReader;
-  struct Close {
-    void operator()(zip_file_t* file) const { zip_fclose(file); }
-  };
-
-  NpzArray(std::filesystem::path path, std::string name) : path_(std::move(path)), name_(std::move(name)) {}
+  NpzArray(std::filesystem::path path, std::string name, const ZipEntry& entry)
+      : path_(std::move(path)), name_(std::move(name)), stream_(entry) {}
   /// Reads exactly this many bytes.
   std::string take(std::size_t bytes);
   void takeHeader(std::uint64_t all);
@@ -39,7 +35,7 @@ class NpzArray {
 
   std::filesystem::path path_;
   std::string name_;
-  std::unique_ptr<zip_file_t, Close> file_;
+  ZipStream stream_;
   NpyHeader header_;
   std::uint64_t value_bytes_ = 0;  ///< number of bytes after the header
   std::vector<double> piece_;
@@ -62,12 +58,9 @@ class NpzReader {
   std::string text(const std::string& name) const;
 
  private:
-  struct Discard {
-    void operator()(zip_t* archive) const { zip_discard(archive); }
-  };
   std::filesystem::path path_;
   std::string bytes_;
-  std::unique_ptr<zip_t, Discard> archive_;
+  std::map<std::string, ZipEntry, std::less<>> entries_;
 };
 
 /// Converts numbers to integers in [least, most]. @throws IoError naming the first that is not one

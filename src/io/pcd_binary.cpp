@@ -1,14 +1,42 @@
 #include "io/pcd_binary.h"
 
-#include <lzf.h>
-
 #include <cstring>
+#include <span>
 
 #include "io/errors.h"
 
 // Not by PCL's reader, which cannot read standard input because it takes a file name, prints to a console that all
 // threads share, and needs the libraries of VTK.
 namespace tufted::io {
+namespace {
+
+/// Unpacks LZF. A byte below 32 announces so many bytes and one more, which are taken as they are. Any other is the
+/// beginning of a length and a distance: as many bytes are repeated from so far back.
+/// @return whether the packed bytes are whole and give exactly those of `to`
+bool unpackLzf(std::span<const char> from, std::span<char> to) {
+  std::size_t read = 0, written = 0;
+  while (read < from.size()) {
+    const auto byte = [&](std::size_t at) { return static_cast<std::size_t>(static_cast<unsigned char>(from[at])); };
+    const std::size_t control = byte(read++);
+    if (control < 32) {
+      const std::size_t count = control + 1;
+      if (count > from.size() - read || count > to.size() - written) return false;
+      std::memcpy(to.data() + written, from.data() + read, count);
+      read += count;
+      written += count;
+      continue;
+    }
+    const bool is_long = control >> 5 == 7;
+    if (from.size() - read < (is_long ? 2 : 1)) return false;
+    const std::size_t count = (control >> 5) + 2 + (is_long ? byte(read++) : 0);
+    const std::size_t distance = ((control & 31) << 8) + byte(read++) + 1;
+    if (distance > written || count > to.size() - written) return false;
+    for (std::size_t i = 0; i < count; ++i, ++written) to[written] = to[written - distance];  // they may overlap
+  }
+  return written == to.size();
+}
+
+}  // namespace
 
 std::size_t readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
   const std::size_t rest = bytes.size() - std::min(header.body, bytes.size());
@@ -54,8 +82,7 @@ std::size_t readPcdCompressed(const std::filesystem::path& path, std::string_vie
     refuseByte(path, header.body, "the compressed data are too short for what they are said to hold");
 
   std::vector<char> columns(sizes[1]);
-  if (sizes[1] > 0 &&
-      lzf_decompress(bytes.data() + header.body + sizeof(sizes), sizes[0], columns.data(), sizes[1]) != sizes[1])
+  if (!unpackLzf(bytes.substr(header.body + sizeof(sizes), sizes[0]), columns))
     refuseByte(path, header.body + sizeof(sizes), "the compressed data are damaged");
   allocate(header);
   const char* column = columns.data();

@@ -6,6 +6,7 @@
 #include "io/stage_results.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
+#include "tufted/version.h"
 
 namespace tufted {
 namespace {

@@ -15,6 +15,7 @@
 #include "io/row_store.h"
 #include "io/staged_files.h"
 #include "tufted/errors.h"
+#include "tufted/version.h"
 
 namespace tufted {
 namespace {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <stdlib.h>  // FLANN includes it, and its `using std::malloc` must come before the macro below
+
 #include <cstdio>
 #include <cstdlib>
 #include <new>

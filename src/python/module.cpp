@@ -1,6 +1,7 @@
 #include "python/module.h"
 
 #include "tufted/options.h"
+#include "tufted/version.h"
 
 PYBIND11_MODULE(_tufted, module) {  // NOLINT
   using namespace tufted::python;

@@ -19,7 +19,7 @@ SUMMARY = "A Laplacian for point clouds and nonmanifold triangle meshes"
 
 
 def _version():
-    return re.search(r"project\(tufted VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
+    return re.search(r'TUFTED_VERSION "([\d.]+)', (ROOT / "include/tufted/version.h").read_text(encoding="utf-8"))[1]
 
 
 def _check_packages():

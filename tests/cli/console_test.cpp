@@ -7,6 +7,7 @@
 #include <set>
 
 #include "subcommands.h"
+#include "tufted/version.h"
 
 namespace console_test {
 namespace {

@@ -18,6 +18,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
 #include "tufted/io/write.h"
+#include "tufted/version.h"
 #include "warnings.h"
 
 namespace denoise_command {

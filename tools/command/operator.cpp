@@ -15,6 +15,7 @@
 #include "progress_bar.h"
 #include "scene_fields.h"
 #include "tufted/errors.h"
+#include "tufted/version.h"
 #include "warnings.h"
 
 namespace {

@@ -26,6 +26,7 @@
 #include "options.h"
 #include "progress_bar.h"
 #include "tufted/errors.h"
+#include "tufted/version.h"
 #include "validate/children.h"
 #include "validate/files.h"
 #include "validate/one_file.h"

@@ -3,6 +3,8 @@
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
 
+#include "tufted/version.h"
+
 #ifdef TUFTED_WITH_GPL
 namespace {
 constexpr const char* licence =

@@ -12,6 +12,7 @@
 #include "scene_fields.h"
 #include "suggestion.h"
 #include "tufted/errors.h"
+#include "tufted/version.h"
 #include "warnings.h"
 
 namespace view_command {

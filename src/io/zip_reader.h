@@ -1,0 +1,48 @@
+#pragma once
+
+#include <zlib.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tufted::io {
+
+/// A file in a ZIP archive, as the directory of the archive describes it.
+struct ZipEntry {
+  std::string_view packed;
+  std::uint64_t size = 0;  ///< bytes when unpacked
+  std::uint32_t checksum = 0;
+  bool is_deflated = false;
+};
+
+/// The files in an archive by their names. Entries that are encrypted or packed in another way than numpy knows are
+/// left out.
+/// @param bytes the whole archive; must outlive the result
+/// @return nullopt for anything else than an archive, or a damaged directory
+std::optional<std::map<std::string, ZipEntry, std::less<>>> readZipDirectory(std::string_view bytes);
+
+/// Unpacks a file piece by piece.
+class ZipStream {
+ public:
+  explicit ZipStream(const ZipEntry& entry);
+
+  /// Unpacks the next bytes, and compares the checksum after the last of the file.
+  /// @return false if the file is damaged or shorter
+  bool read(char* to, std::size_t bytes);
+
+ private:
+  struct End {
+    void operator()(z_stream* stream) const;
+  };
+
+  ZipEntry entry_;
+  std::uint64_t taken_ = 0;
+  uLong checksum_ = 0;
+  std::unique_ptr<z_stream, End> stream_;  ///< null for a file that is not deflated
+};
+
+}  // namespace tufted::io
