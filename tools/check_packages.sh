@@ -35,12 +35,12 @@ cp -r "$out"/*.deb "$out"/*.whl include tests docs README.md datasets "$root/tuf
 # clean COMMAND: runs it in the new Debian.
 clean() {
   echo "== $1"
-  chroot "$root" bash -ec "cd /tufted; export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8; $1"
+  chroot "$root" bash -eo pipefail -c "cd /tufted; export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8; $1"
 }
 clean 'apt-get update -qq
        apt-get install -y -qq --no-install-recommends ./libtufted0*.deb ./tufted_*.deb ./python3-tufted_*.deb >/dev/null
        dpkg-query -W -f "\${Package} \${Version} \${Installed-Size} KiB\n" "*tufted*"'
-clean 'tufted --version | head -n 1; tufted laplacian datasets/sphere_uniform.ply --out /tmp/sphere | head -n 3'
+clean 'tufted --version | sed -n 1p; tufted laplacian datasets/sphere_uniform.ply --out /tmp/sphere | sed -n 1,3p'
 clean 'ldd /usr/bin/tufted | grep -c "=> /"; man -w tufted 2>/dev/null || ls /usr/share/man/man1/tufted.1*'
 clean 'cd /; python3 -c "import tufted; print(tufted.__version__, tufted.__file__)"'
 # The core is used with Eigen's headers and no others.
@@ -51,7 +51,7 @@ clean 'apt-get install -y -qq --no-install-recommends ./libtufted-dev_*.deb g++ 
        g++ -std=c++17 tests/consumer/main.cpp -o /tmp/by_pkg_config $(pkg-config --cflags --libs tufted)
        /tmp/by_pkg_config && echo "built by pkg-config"'
 # The wheel has the libraries of the project inside; those of others were installed above.
-clean 'dpkg --purge python3-tufted tufted libtufted-dev libtufted0.2 >/dev/null
+clean 'dpkg --purge python3-tufted tufted libtufted-dev libtufted'"${version%.*}"' >/dev/null
        apt-get install -y -qq --no-install-recommends python3-venv >/dev/null
        python3 -m venv --system-site-packages /tmp/venv
        /tmp/venv/bin/pip install -q --no-index --no-deps ./*.whl

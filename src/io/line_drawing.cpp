@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double panel = 800;   ///< longer side of the drawn lines, in pixels; fits into a screen
 constexpr double margin = 20;   ///< around the lines, in pixels
-constexpr double legend = 180;  ///< width of the legend and least width of the drawing; fits numbers of 15 digits
+constexpr double legend = 180;  ///< width of the legend and least width of the drawing; fits eight digits with an exponent
 constexpr int most_named = 20;  ///< values in the legend; more would be higher than the lines
 /// From the least to the greatest value: blue, green, orange, which differ in print without colours as well.
 constexpr std::array<std::array<double, 3>, 3> colors = {{{31, 78, 156}, {42, 157, 120}, {233, 138, 21}}};
@@ -62,7 +63,7 @@ class Drawing {
     std::sort(values_.begin(), values_.end());
     values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
     const double extent = drawn_.empty() ? 0 : box_.sizes().maxCoeff();
-    scale_ = extent > 0 ? panel / extent : 0;
+    scale_ = extent > panel / std::numeric_limits<double>::max() ? panel / extent : 0;
   }
 
   void write(OutputBuffer& to) const {

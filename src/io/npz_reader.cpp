@@ -73,6 +73,8 @@ NpzArray NpzReader::open(const std::string& name) const {
   const auto found = entries_.find(name + ".npy");
   if (found == entries_.end()) refuse(path_, "has no array " + quote(name));
   const ZipEntry& entry = found->second;
+  if (!entry.is_readable)
+    refuse(path_, "the array " + quote(name) + " is encrypted, or compressed in another way than by deflate");
   // Deflate shrinks by a factor of at most 1032.
   if (entry.size / 2048 > bytes_.size()) refuse(path_, "the array " + quote(name) + " claims to be too large");
   NpzArray array(path_, name, entry);

@@ -49,6 +49,8 @@ class NpzReader {
   /// Opens the archive.
   /// @throws IoError for a file that is not an archive
   explicit NpzReader(const std::filesystem::path& path);
+  NpzReader(const NpzReader&) = delete;  // `entries_` refer to `bytes_`
+  NpzReader& operator=(const NpzReader&) = delete;
 
   /// Opens the array `name`, which can be read while this reader exists. @throws IoError if missing or not an array
   NpzArray open(const std::string& name) const;

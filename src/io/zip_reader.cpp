@@ -44,35 +44,40 @@ bool readLargeNumbers(std::string_view extra, std::initializer_list<std::uint64_
   return true;
 }
 
-/// Where the directory begins; nullopt without one.
-std::optional<std::uint64_t> directoryStart(std::string_view bytes) {
+struct Directory {
+  std::uint64_t start, end;  ///< place of its first entry, and of the record behind its last one
+};
+
+/// nullopt without a directory.
+std::optional<Directory> findDirectory(std::string_view bytes) {
   const std::uint64_t tail = std::min<std::uint64_t>(bytes.size(), end_bytes + most_comment_bytes);
   const std::size_t found = bytes.substr(bytes.size() - tail).rfind("PK\5\6");
   if (found == std::string_view::npos) return {};
   const std::uint64_t end = bytes.size() - tail + found;
   if (!isAt(bytes, end, end_bytes, "PK\5\6")) return {};
   const std::uint64_t start = number(bytes, end + 16, 4);
-  if (start != elsewhere) return start;
+  if (start != elsewhere) return Directory{start, end};
   if (end < locator_bytes || !isAt(bytes, end - locator_bytes, locator_bytes, "PK\6\7")) return {};
   const std::uint64_t large_end = number(bytes, end - locator_bytes + 8, 8);
   if (!isAt(bytes, large_end, zip64_end_bytes, "PK\6\6")) return {};
-  return number(bytes, large_end + 48, 8);
+  return Directory{number(bytes, large_end + 48, 8), large_end};
 }
 
 }  // namespace
 
 std::optional<std::map<std::string, ZipEntry, std::less<>>> readZipDirectory(std::string_view bytes) {
-  const std::optional<std::uint64_t> start = directoryStart(bytes);
-  if (!start) return {};
+  const std::optional<Directory> directory = findDirectory(bytes);
+  if (!directory) return {};
   std::map<std::string, ZipEntry, std::less<>> entries;
-  std::uint64_t at = *start;
+  std::uint64_t at = directory->start;
   while (isAt(bytes, at, entry_bytes, "PK\1\2")) {
     const std::uint64_t flags = number(bytes, at + 8, 2), method = number(bytes, at + 10, 2);
     std::uint64_t packed_size = number(bytes, at + 20, 4), local = number(bytes, at + 42, 4);
     ZipEntry entry = {.packed = {},
                       .size = number(bytes, at + 24, 4),
                       .checksum = static_cast<std::uint32_t>(number(bytes, at + 16, 4)),
-                      .is_deflated = method == 8};
+                      .is_deflated = method == 8,
+                      .is_readable = (flags & 1) == 0 && (method == 0 || method == 8)};
     const std::uint64_t name_bytes = number(bytes, at + 28, 2), extra_bytes = number(bytes, at + 30, 2);
     const std::uint64_t next = at + entry_bytes + name_bytes + extra_bytes + number(bytes, at + 32, 2);
     if (next > bytes.size()) return {};
@@ -82,14 +87,12 @@ std::optional<std::map<std::string, ZipEntry, std::less<>>> readZipDirectory(std
     const std::uint64_t values = local + local_bytes + number(bytes, local + 26, 2) + number(bytes, local + 28, 2);
     if (values > bytes.size() || packed_size > bytes.size() - values) return {};
     entry.packed = bytes.substr(values, packed_size);
-    if (method == 0 && packed_size != entry.size) return {};
-    const bool is_encrypted = (flags & 1) != 0;
-    if (!is_encrypted && (entry.is_deflated || method == 0))
-      entries.emplace(bytes.substr(at + entry_bytes, name_bytes), entry);
+    if (entry.is_readable && method == 0 && packed_size != entry.size) return {};
+    // Of two files with one name, others may read the other one.
+    if (!entries.emplace(bytes.substr(at + entry_bytes, name_bytes), entry).second) return {};
     at = next;
   }
-  // What follows the last entry: the record of the end, or that of Zip64.
-  if (!isAt(bytes, at, end_bytes, "PK\5\6") && !isAt(bytes, at, zip64_end_bytes, "PK\6\6")) return {};
+  if (at != directory->end) return {};
   return entries;
 }
 

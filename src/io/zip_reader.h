@@ -17,17 +17,18 @@ struct ZipEntry {
   std::uint64_t size = 0;  ///< bytes when unpacked
   std::uint32_t checksum = 0;
   bool is_deflated = false;
+  bool is_readable = true;  ///< not encrypted, and stored or deflated
 };
 
-/// The files in an archive by their names. Entries that are encrypted or packed in another way than numpy knows are
-/// left out.
+/// The files in an archive by their names.
 /// @param bytes the whole archive; must outlive the result
-/// @return nullopt for anything else than an archive, or a damaged directory
+/// @return nullopt for anything else than an archive, a damaged directory, or two files with one name
 std::optional<std::map<std::string, ZipEntry, std::less<>>> readZipDirectory(std::string_view bytes);
 
 /// Unpacks a file piece by piece.
 class ZipStream {
  public:
+  /// @param entry that is readable
   explicit ZipStream(const ZipEntry& entry);
 
   /// Unpacks the next bytes, and compares the checksum after the last of the file.

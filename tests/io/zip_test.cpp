@@ -91,6 +91,44 @@ std::string number(std::uint64_t value, std::size_t size) {
   return {reinterpret_cast<const char*>(&value), size};
 }
 
+/// An archive of one stored file "a" per text, as zipfile of Python writes it.
+std::string archiveOf(const std::vector<std::string>& files, std::uint64_t flags = 0, std::uint64_t method = 0) {
+  std::string bytes, directory;
+  for (const std::string& values : files) {
+    const uLong checksum = crc32_z(0, reinterpret_cast<const Bytef*>(values.data()), values.size());
+    const std::string what = number(20, 2) + number(flags, 2) + number(method, 2) + number(0, 4) + number(checksum, 4) +
+                             number(values.size(), 4) + number(values.size(), 4) + number(1, 2) + number(0, 2);
+    directory += "PK\1\2" + number(20, 2) + what + number(0, 10) + number(bytes.size(), 4) + "a";
+    bytes += "PK\3\4" + what + "a" + values;
+  }
+  const std::string count = number(files.size(), 2);
+  return bytes + directory + "PK\5\6" + number(0, 4) + count + count + number(directory.size(), 4) +
+         number(bytes.size(), 4) + number(0, 2);
+}
+
+TEST(Zip, DamagedFilesAreNotRead) {
+  const std::string archive = archiveOf({"values"});
+  EXPECT_EQ(unpacked(archive, "a"), "values");
+  std::string other = archive;
+  other[31] = 'V';  // the first of the values, after the local header and the name
+  EXPECT_EQ(unpacked(other, "a"), std::nullopt);
+}
+
+TEST(Zip, ArchivesThatOthersReadOtherwiseAreRefused) {
+  const std::string first = archiveOf({"values"}), second = archiveOf({"others"});
+  EXPECT_FALSE(tufted::io::readZipDirectory(archiveOf({"values", "others"})));  // two files with one name
+  EXPECT_FALSE(tufted::io::readZipDirectory(first + second));  // offsets of the second lead into the first
+}
+
+TEST(Zip, EncryptedAndOtherwiseCompressedFilesAreListed) {
+  constexpr std::uint64_t encrypted = 1, lzma = 14;
+  for (const std::string& archive : {archiveOf({"values"}, encrypted), archiveOf({"values"}, 0, lzma)}) {
+    const auto entries = tufted::io::readZipDirectory(archive);
+    ASSERT_TRUE(entries && entries->contains("a"));
+    EXPECT_FALSE(entries->at("a").is_readable);
+  }
+}
+
 // Archives above 4 GB have numbers of eight bytes, and any other archive may have them.
 TEST(Zip, NumbersOfEightBytesAreRead) {
   const TemporaryDir dir;

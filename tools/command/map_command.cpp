@@ -28,8 +28,8 @@ FILE is the target and --from the source; both are clouds or meshes, in any unit
 found from wave kernel signatures at energies that both shapes share, and from wave kernels around the landmarks. It is
 refined by ZoomOut to --count eigenpairs. Shapes that are their own mirror image have two maps of equal cost: landmarks,
 pairs of corresponding points off the plane of symmetry, decide.
-The options of choosing points apply to FILE, those of building clouds to FILE and, if it is a cloud, to the source, and
-all others to both shapes.
+The options of choosing points and components apply to FILE alone; those of building clouds to FILE and, if both are
+clouds, to the source; all others to both shapes.
 
 Files in DIR, which replace older ones when all are complete:
   to_source.npy  N', int32: for each point of FILE the corresponding one of the source; -1 at points that take no part
@@ -78,12 +78,19 @@ void check(Settings& settings, const Operator& source) {
 }
 
 /// As many of the first eigenpairs as there are, at most `count`.
-/// @throws IoError if nothing takes part
+/// @throws IoError for a shape that cannot be mapped
 tufted::Spectrum pairsOf(const std::string& name, const tufted::Laplacian& laplacian, int count,
                          const Operator& source) {
   const int most = tufted::mostEigenpairs(laplacian);
-  if (most == 0) throw tufted::IoError(name + ": " + nothingActive(laplacian));
-  return tufted::spectrum(laplacian, std::min(count, most), source.spectrumOptions());
+  if (most == 0) {
+    const std::string why = nothingActive(laplacian);
+    throw tufted::IoError(name + ": " + (why.empty() ? "no active point has an area" : why));
+  }
+  tufted::Spectrum pairs = tufted::spectrum(laplacian, std::min(count, most), source.spectrumOptions());
+  if ((pairs.values.array() > 0).count() < 2)
+    throw tufted::IoError(name + ": fewer than two of its " + std::to_string(pairs.values.size()) +
+                          " first eigenvalues are positive, as it has many components or few points");
+  return pairs;
 }
 
 Eigen::MatrixXd columnOf(const std::vector<int>& points) {

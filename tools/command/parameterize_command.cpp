@@ -79,6 +79,7 @@ void check(Settings& settings, const Operator& source) {
     for (const Row& row : readRows(settings.cut)) {
       std::vector<int>& path = settings.cuts.emplace_back();
       for (const double number : row.numbers) path.push_back(placeOf({number}, source, row.name).index);
+      if (path.size() < 2) throw tufted::IoError(row.name + ": has 1 index, must have at least 2");
     }
   }
   if (settings.rim.empty()) return;

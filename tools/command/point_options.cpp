@@ -159,8 +159,9 @@ void requireMesh(const std::string& name, const Operator& source) {
 }
 
 tufted::SurfacePoint pointInFace(const std::vector<double>& numbers, const std::string& name, const Operator& source) {
-  const bool valid = numbers.size() == 4 && numbers[0] == std::floor(numbers[0]) && std::abs(numbers[0]) < 2e9;
-  if (!valid) throw tufted::InvalidInput(name + " is not FACE,A,B,C");
+  if (numbers.size() != 4) throw tufted::InvalidInput(name + " is not FACE,A,B,C");
+  if (!(numbers[0] == std::floor(numbers[0]) && std::abs(numbers[0]) < 2e9))
+    throw tufted::InvalidInput(name + ": FACE = " + numberText(numbers[0]) + ", must be the index of a triangle");
   return forOption(name, [&] {
     return tufted::SurfacePoint::inFace(source.geometry.points, source.geometry.triangles, static_cast<int>(numbers[0]),
                                         {numbers[1], numbers[2], numbers[3]});
