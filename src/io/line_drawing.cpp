@@ -17,7 +17,7 @@ namespace {
 
 constexpr double panel = 800;   ///< longer side of the drawn lines, in pixels; fits into a screen
 constexpr double margin = 20;   ///< around the lines, in pixels
-constexpr double legend = 180;  ///< width of the legend and least width of the drawing; fits eight digits with an exponent
+constexpr double legend = 180;  ///< width of the legend and least width of the drawing; fits eight digits
 constexpr int most_named = 20;  ///< values in the legend; more would be higher than the lines
 /// From the least to the greatest value: blue, green, orange, which differ in print without colours as well.
 constexpr std::array<std::array<double, 3>, 3> colors = {{{31, 78, 156}, {42, 157, 120}, {233, 138, 21}}};

@@ -115,7 +115,8 @@ TEST_F(Subcommands, ParameterizeOpensAClosedSurfaceAlongACut) {
   EXPECT_TRUE(places.count({uv[2], uv[3]}) == 1);
   expectRefusal({"parameterize", mesh, "--cut", dir_.write("bad.txt", "0 1\n")}, "must be a disk", 1);
   expectRefusal({"parameterize", mesh, "--cut", dir_.write("bad.txt", "0 4\n")}, "line 1 is no index in [0, 4)");
-  expectRefusal({"parameterize", mesh, "--cut", dir_.write("bad.txt", "0\n")}, "line 1: has 1 index, must have at least 2", 1);
+  expectRefusal({"parameterize", mesh, "--cut", dir_.write("bad.txt", "0\n")},
+                "line 1: has 1 index, must have at least 2", 1);
   expectRefusal({"parameterize", mesh, "--cut", cut, "--method", "harmonic"}, "--cut with --method harmonic needs");
   expectRefusal({"parameterize", mesh, "--cut", cut, "--method", "harmonic", "--rim", cut}, "--rim excludes --cut");
 }
