@@ -53,8 +53,8 @@ Eigen::MatrixXd functionalMap(const MappedShape& source, const MappedShape& targ
 struct ZoomOutOptions {
   int k = 100;   ///< number of eigenpairs at the end; fewer if a spectrum has fewer
   int step = 1;  ///< eigenpairs that each turn adds, >= 1; larger values are faster
-  /// About so many points of the target, evenly spread, take part in the turns, at least 2 k, and ten times as many of
-  /// the source, a third of whose spacing is near enough; 0: all.
+  /// At most so many points of the target, or 2 k if that is more, evenly spread, take part in the turns, and ten times
+  /// as many of the source, a third of whose spacing is near enough; fewer where points are uneven; 0: all.
   int samples = 1000;
   int threads = 0;         ///< at most this many threads; 0: one per processor
   Progress progress = {};  ///< called in each turn
@@ -64,7 +64,7 @@ struct ZoomOutOptions {
 /// from point to point of a functional map, and the functional map with more eigenpairs of that.
 /// @param C of functionalMap(); one of options.k rows or more is returned as it is
 /// @return k x k
-/// @throws InvalidInput for arrays of the wrong size, options out of range, an area of 0, or a C that is not finite
+/// @throws InvalidInput for arrays of the wrong size, no positions, options out of range, an area of 0, or an infinite C
 /// @throws Cancelled when `options.progress` returns false
 Eigen::MatrixXd zoomOut(const MappedShape& source, const MappedShape& target, const Eigen::MatrixXd& C,
                         const ZoomOutOptions& options = {});

@@ -45,9 +45,9 @@ struct SignedDistanceReport {
 ///
 /// Marching gives each point the distance of DistanceSolver from the nearest place of any curve, at the corners of the
 /// triangle around a segment that from the segment. It is negative if the shortest path leaves the curve to the right.
-/// So it is the least by magnitude of the distances from each curve, whether their left sides agree or not, and its
-/// sign changes where paths from both sides meet. A path that starts at the end of an open curve counts as one from the
-/// side of the last segment, extended straight, on which it leaves. Nothing is factored.
+/// So it is the least by magnitude of the distances from each curve, and its sign changes where paths from both sides
+/// meet. A path from the end of an open curve counts as one from the side of the last segment, extended straight. Sides
+/// come from the normals at a curve and next to it, which may mislead on a thin plate without vertices off its edges.
 class SignedDistanceSolver {
  public:
   /// @param laplacian with positions and frames, whose normals have one sign on each component (see orientedFrames());

@@ -22,7 +22,7 @@ struct SpectrumOptions {
   /// Up to this many points, >= 0, dense matrices replace the iterative search if k is above 0.3 times the number of
   /// points, or if there are at most 150 points. Dense matrices take 24 bytes per pair of points, which `memory_limit`
   /// bounds as well, and time that grows with the cube of the points and cannot be cancelled (3,000 points take 220 MB
-  /// and about a minute). Before they start, `progress` gets a stage such as "dense, about 108 s".
+  /// and one to two minutes). Before they start, `progress` gets a stage such as "dense, about 108 s".
   int dense_limit = 3000;
   bool null_space = true;     ///< false: leaves out the eigenvalues 0 and returns the k smallest positive ones
   int max_iterations = 1000;  ///< iterations of eight solves each, >= 1; SolverFailure if they do not suffice

@@ -99,7 +99,7 @@ class Sides {
   /// @return the distance of the segment
   double look(const CurveSegment& segment, int i) {
     const RowVector3d offset = surface_.positions.row(i) - segment.from.position;
-    const RowVector3d normal = surface_.frames.normals.row(i);
+    const RowVector3d normal = normalBetween(segment, i);
     const double foot = std::clamp(offset.dot(segment.along), 0., segment.length);
     const double distance = (offset - foot * segment.along).stableNorm();
     const double height = normal.cross(segment.along).dot(offset);
@@ -109,6 +109,17 @@ class Sides {
         (distance < best.distance + rounding && std::abs(height) > std::abs(best.height)))
       best = {distance, height};
     return distance;
+  }
+
+  /// The mean of the normals of a point and of both ends of a segment: over a sharp edge that of the point alone may be
+  /// perpendicular to that of the surface at the segment.
+  RowVector3d normalBetween(const CurveSegment& segment, int i) const {
+    RowVector3d sum = surface_.frames.normals.row(i);
+    for (const CurvePlace* end : {&segment.from, &segment.to})
+      for (int k = 0; k < 3; ++k)
+        if (end->point.weights[k] > 0)
+          sum += end->point.weights[k] * surface_.frames.normals.row(end->point.corners[k]);
+    return sum.norm() > 0 ? RowVector3d(sum.normalized()) : sum;
   }
 
   const SideGeometry& surface_;

@@ -153,7 +153,7 @@ Eigen::MatrixX2d parameterizeCut(const Laplacian& laplacian, const TrianglesRef&
   checkPositions(function_name, laplacian);
   if (!options.rim.empty()) refuse("a rim is given with cuts, must not be");
   if (options.method == ParameterizationMethod::harmonic && options.weights == HarmonicWeights::laplacian)
-    refuse("weights are those of L, which has no cuts, must be HarmonicWeights::mean_value");
+    refuse("weights are those of L, which has no cuts, must be mean-value weights");
   const std::set<Edge> edges = edgesOf(laplacian, cuts);
   CutSurface cut = cutOpen(laplacian, triangles, edges);
   addPoints(laplacian, cut);

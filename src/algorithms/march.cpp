@@ -25,7 +25,7 @@ constexpr std::int64_t between_reports = 65536;
 /// by up to 5e-9.
 constexpr double march_reach = 5;
 /// A source ends this many edges beside the vertices where it may be the nearest. On scans, with 8, distances from
-/// sources side by side are off by up to 1.2 %, and without it 100 of them take 71 times one.
+/// sources side by side are off by up to 1.2 %, with 16 by 0.5 %, and without it 100 of them take 71 times one.
 constexpr int march_margin = 16;
 /// Distances along one line differ by less than this part because of rounding.
 constexpr double rounding = 1e-13;

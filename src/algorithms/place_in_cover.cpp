@@ -23,6 +23,8 @@ namespace {
 constexpr std::array<double, 3> on_line = {1e-9, 1e-6, 1e-3};
 /// If a match is exact up to this part of the longer side, the search ends.
 constexpr double exact_fit = 1e-9;
+/// Weights of a source sum to 1 up to this.
+constexpr double rounding_of_weights = 1e-6;
 
 void checkGlue(const std::string& function, const IntrinsicTriangulation& cover) {
   const auto sides = std::ssize(cover.glue);
@@ -115,6 +117,9 @@ void checkPlace(const std::string& function, const SurfacePoint& source, int n) 
                          ", must be finite and at least 0");
     }
   }
+  const double sum = source.weights[0] + source.weights[1] + source.weights[2];
+  if (!(std::abs(sum - 1) < rounding_of_weights))
+    throw InvalidInput(name + "weights of a source sum to " + numberText(sum) + ", must sum to 1");
 }
 
 std::vector<PlaceInCover> placesInCover(const std::string& function, const CoverSource& source_of_cover,

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "algorithms/check_positions.h"
 #include "base/number_text.h"
 #include "neighbors/morton.h"
 #include "neighbors/nearest_rows.h"
@@ -24,6 +25,7 @@ constexpr int energies = 100;              ///< of wave kernels, as Aubry et al.
 constexpr double kernel_steps = 7;         ///< width of a wave kernel in steps of the energy, by Aubry et al.
 constexpr double least_width = 1e-8;       ///< of a wave kernel: far above the rounding of logarithms
 constexpr int candidates_per_sample = 10;  ///< see ZoomOutOptions::samples
+constexpr int first_pairs = 20;            ///< of a start from points; the null space alone tells no points apart
 
 [[noreturn]] void refuse(const std::string& function, const std::string& why) {
   throw InvalidInput(function + ": " + why);
@@ -34,22 +36,29 @@ void requireAtLeast(const std::string& function, const char* name, int value, in
     refuse(function, std::string(name) + " = " + std::to_string(value) + ", must be at least " + std::to_string(least));
 }
 
+/// Divides columns by their norms, where these are not 0.
+Eigen::DiagonalMatrix<double, Eigen::Dynamic> inverted(const VectorXd& norms) {
+  return norms.unaryExpr([](double norm) { return norm > 0 ? 1 / norm : 1; }).asDiagonal();
+}
+
 /// The first eigenpairs of a shape scaled to area 1, at all its points.
 struct Basis {
   const Laplacian& laplacian;
   VectorXd values;   ///< k
   MatrixXd vectors;  ///< N x k
   VectorXd masses;   ///< N
-  Basis(const std::string& function, const MappedShape& shape, Index k) : laplacian(shape.laplacian) {
+  /// @param name of the shape, for errors
+  Basis(const std::string& function, const char* name, const MappedShape& shape, Index k) : laplacian(shape.laplacian) {
     checkSizes(function, laplacian);
     const Spectrum& pairs = shape.spectrum;
     const auto n = std::ssize(laplacian.status);
     if (pairs.vectors.rows() != n || pairs.vectors.cols() != pairs.values.size())
-      refuse(function, "a spectrum has " + std::to_string(pairs.values.size()) + " values and vectors of " +
-                           std::to_string(pairs.vectors.rows()) + " x " + std::to_string(pairs.vectors.cols()) +
-                           ", must have one vector of " + std::to_string(n) + " per value");
+      refuse(function, "the spectrum of the " + std::string(name) + " has " + std::to_string(pairs.values.size()) +
+                           " values and vectors of " + std::to_string(pairs.vectors.rows()) + " x " +
+                           std::to_string(pairs.vectors.cols()) + ", must have one vector of " + std::to_string(n) +
+                           " per value");
     const double area = laplacian.M.sum();
-    if (!(area > 0)) refuse(function, "a shape has the area 0, must have points that take part");
+    if (!(area > 0)) refuse(function, "the " + std::string(name) + " has the area 0, must have points that take part");
     values = area * pairs.values.head(k);
     vectors = std::sqrt(area) * pairs.vectors.leftCols(k);
     masses = laplacian.M / area;
@@ -62,7 +71,7 @@ struct Basis {
       if (takesPart(i)) all.push_back(i);
     return all;
   }
-  /// About `count` points that take part, evenly spread: along a Morton curve, one from each equal share of the area.
+  /// At most `count` points that take part, evenly spread: along a Morton curve, one from each equal share of the area.
   /// All if there are no more, or for 0.
   std::vector<int> sample(std::int64_t count) const {
     std::vector<PointStatus> status;
@@ -78,21 +87,18 @@ struct Basis {
     }
     return found;
   }
-  VectorXd norms(const MatrixXd& functions) const {
-    return (masses.transpose() * functions.cwiseAbs2()).transpose().cwiseSqrt();
-  }
   /// The first k coefficients of functions divided by their norms.
   MatrixXd coefficients(const MatrixXd& functions, Index k) const {
-    const VectorXd norms = this->norms(functions);
-    return vectors.leftCols(k).transpose() * (masses.asDiagonal() * functions) *
-           norms.unaryExpr([](double norm) { return norm > 0 ? 1 / norm : 1; }).asDiagonal();
+    const VectorXd norms = (masses.transpose() * functions.cwiseAbs2()).transpose().cwiseSqrt();
+    return vectors.leftCols(k).transpose() * (masses.asDiagonal() * functions) * inverted(norms);
   }
   /// Weights of eigenpairs at logarithms of eigenvalues; 0 for the null space.
   MatrixXd waveWeights(const VectorXd& logarithms, double width) const {
     MatrixXd weights(values.size(), logarithms.size());
     for (Index e = 0; e < weights.cols(); ++e) {
       const VectorXd exponents = values.unaryExpr([&](double value) {
-        const double widths = (std::log(value) - logarithms[e]) / width;  // log(0) is -infinity, and its weight 0
+        const double widths =
+            (std::log(std::max(value, 0.)) - logarithms[e]) / width;  // log(0) is -infinity, and its weight 0
         return -widths * widths / 2;
       });
       // Far from all eigenvalues the nearest one counts.
@@ -108,14 +114,15 @@ struct Bases {
   Basis source, target;
   Bases(const std::string& function, const MappedShape& a, const MappedShape& b,
         Index most = std::numeric_limits<Index>::max())
-      : source(function, a, std::min({most, a.spectrum.values.size(), b.spectrum.values.size()})),
-        target(function, b, source.values.size()) {}
+      : source(function, "source", a, std::min({most, a.spectrum.values.size(), b.spectrum.values.size()})),
+        target(function, "target", b, source.values.size()) {}
   Index size() const { return source.values.size(); }
   void checkMap(const std::string& function, const MatrixXd& C) const {
-    if (C.rows() != C.cols() || C.rows() < 1 || C.rows() > size())
-      refuse(function, "C is " + std::to_string(C.rows()) + " x " + std::to_string(C.cols()) +
-                           ", must be k x k with k at most " + std::to_string(size()) +
-                           ", the eigenpairs that both shapes have");
+    const std::string sizes = "C is " + std::to_string(C.rows()) + " x " + std::to_string(C.cols());
+    if (C.rows() != C.cols() || C.rows() < 1) refuse(function, sizes + ", must be k x k with k at least 1");
+    if (C.rows() > size())
+      refuse(function,
+             sizes + ", must have at most " + std::to_string(size()) + " rows, the eigenpairs that both shapes have");
     if (!C.allFinite()) refuse(function, "C has a value that is not finite");
   }
 };
@@ -148,7 +155,8 @@ MatrixXd pulled(const Bases& bases, const std::vector<int>& points, const std::v
   return bases.target.vectors(from, Eigen::seqN(0, k)).eval().completeOrthogonalDecomposition().solve(images);
 }
 
-/// Functions on both shapes that correspond, and the square roots of their weights.
+/// The first coefficients, k x D, of functions of norm 1 on both shapes that correspond, and the square roots of their
+/// weights.
 struct Descriptors {
   MatrixXd source, target;
   VectorXd weights;
@@ -160,18 +168,23 @@ void checkDescriptors(const std::string& function, const Basis& basis, const cha
                          std::to_string(basis.masses.size()));
   for (const int i : basis.points())
     if (!given.row(i).allFinite())
-      refuse(function, "descriptors have a value that is not finite at a point that takes part");
+      refuse(function, std::string(name) + " have a value that is not finite at point " + std::to_string(i) +
+                           ", which takes part");
 }
 
+/// The first k coefficients of the functions to compare, scaled to norm 1.
 /// @param given N x D; without columns: wave kernel signatures
 /// @param side 0: the source, 1: the target
 MatrixXd compared(const std::string& function, const Basis& basis, const MatrixXd& waves, const MatrixXd& given,
-                  const FunctionalMapOptions& options, int side) {
-  MatrixXd all = given.cols() > 0 ? given : MatrixXd(basis.vectors.cwiseAbs2() * waves);
-  for (int i = 0; i < all.rows(); ++i)
-    if (!basis.takesPart(i)) all.row(i).setZero();
-  const Index own = all.cols();
-  all.conservativeResize(Eigen::NoChange, own + std::ssize(options.landmarks) * waves.cols());
+                  const FunctionalMapOptions& options, int side, Index k) {
+  MatrixXd own = given.cols() > 0 ? given : MatrixXd(basis.vectors.cwiseAbs2() * waves);
+  for (int i = 0; i < own.rows(); ++i)
+    if (!basis.takesPart(i)) own.row(i).setZero();
+  for (auto column : own.colwise())
+    if (const double most = column.cwiseAbs().maxCoeff(); most > 0) column /= most;
+  MatrixXd all = basis.coefficients(own, k);
+  const Index first = all.cols();
+  all.conservativeResize(Eigen::NoChange, first + std::ssize(options.landmarks) * waves.cols());
   for (Index l = 0; l < std::ssize(options.landmarks); ++l) {
     const int place = options.landmarks[l][side];
     if (place < 0 || place >= basis.masses.size())
@@ -180,13 +193,14 @@ MatrixXd compared(const std::string& function, const Basis& basis, const MatrixX
     if (!basis.takesPart(place))
       refuse(function, "landmarks has " + std::to_string(place) + ", a point of the " +
                            (side == 0 ? "source" : "target") + " that takes no part");
-    all.middleCols(own + l * waves.cols(), waves.cols()).noalias() =
-        basis.vectors * (basis.vectors.row(place).transpose().asDiagonal() * waves);
+    const MatrixXd kernels = basis.vectors.row(place).transpose().asDiagonal() * waves;  // all their coefficients
+    all.middleCols(first + l * waves.cols(), waves.cols()) = kernels.topRows(k) * inverted(kernels.colwise().norm());
   }
   return all;
 }
 
-Descriptors descriptorsOf(const std::string& function, const Bases& bases, const FunctionalMapOptions& options) {
+Descriptors descriptorsOf(const std::string& function, const Bases& bases, const FunctionalMapOptions& options,
+                          Index k) {
   const auto positive = [](const Basis& basis) { return (basis.values.array() > 0).count(); };
   if (std::min(positive(bases.source), positive(bases.target)) < 2)
     refuse(function, "fewer than two eigenvalues are positive: too few points take part");
@@ -205,8 +219,8 @@ Descriptors descriptorsOf(const std::string& function, const Bases& bases, const
     checkDescriptors(function, bases.target, "descriptors of the target", b);
   }
   Descriptors found;
-  found.source = compared(function, bases.source, bases.source.waveWeights(logarithms, width), a, options, 0);
-  found.target = compared(function, bases.target, bases.target.waveWeights(logarithms, width), b, options, 1);
+  found.source = compared(function, bases.source, bases.source.waveWeights(logarithms, width), a, options, 0, k);
+  found.target = compared(function, bases.target, bases.target.waveWeights(logarithms, width), b, options, 1, k);
   found.weights = VectorXd::Ones(found.source.cols());
   if (options.weights.size() > 0) {
     if (options.weights.size() != a.cols())
@@ -217,8 +231,8 @@ Descriptors descriptorsOf(const std::string& function, const Bases& bases, const
         refuse(function, "weights has " + numberText(weight) + ", must be finite and at least 0");
     found.weights.head(a.cols()) = options.weights.cwiseSqrt();
   }
-  if ((found.weights.cwiseProduct(bases.source.norms(found.source)).cwiseProduct(bases.target.norms(found.target)))
-          .isZero(0))
+  const auto norms = [](const MatrixXd& coefficients) -> VectorXd { return coefficients.colwise().norm(); };
+  if ((found.weights.cwiseProduct(norms(found.source)).cwiseProduct(norms(found.target))).isZero(0))
     refuse(function, "descriptors have no column that is not 0 and has a weight above 0, must have one");
   return found;
 }
@@ -243,6 +257,8 @@ std::vector<int> samplePoints(const Bases& bases, const ZoomOutOptions& options)
   requireAtLeast("zoomOut", "k", options.k, 1);
   requireAtLeast("zoomOut", "step", options.step, 1);
   requireAtLeast("zoomOut", "samples", options.samples, 0);
+  checkPositions("zoomOut", bases.source.laplacian);
+  checkPositions("zoomOut", bases.target.laplacian);
   return bases.target.sample(options.samples > 0 ? std::max<std::int64_t>(options.samples, 2 * std::int64_t{options.k})
                                                  : 0);
 }
@@ -256,10 +272,9 @@ MatrixXd functionalMap(const MappedShape& source, const MappedShape& target, con
     refuse(function, "commutativity = " + numberText(options.commutativity) + ", must be finite and at least 0");
   const Bases bases(function, source, target);
   const Index k = std::min<Index>(options.k, bases.size());
-  const Descriptors found = descriptorsOf(function, bases, options);
+  const Descriptors found = descriptorsOf(function, bases, options, k);
   const VectorXd factors = found.weights / std::sqrt(static_cast<double>(found.weights.size()));
-  const MatrixXd A = bases.source.coefficients(found.source, k) * factors.asDiagonal();
-  const MatrixXd B = bases.target.coefficients(found.target, k) * factors.asDiagonal();
+  const MatrixXd A = found.source * factors.asDiagonal(), B = found.target * factors.asDiagonal();
   const VectorXd D = bases.source.values.head(k), E = bases.target.values.head(k);
   const double largest = std::max({D[k - 1], E[k - 1], std::numeric_limits<double>::min()});
   const MatrixXd gram = A * A.transpose(), right = A * B.transpose();
@@ -299,7 +314,9 @@ MatrixXd zoomOut(const MappedShape& source, const MappedShape& target, const std
   for (const int i : known) mapped.push_back(to_source[i]);
   if (std::none_of(mapped.begin(), mapped.end(), [](int i) { return i >= 0; }))
     refuse(function, "to_source has no index of at least 0 at points that take part, must have one");
-  const MatrixXd start = pulled(bases, known, mapped, std::min<Index>({options.k, options.step, bases.size()}));
+  const Index given = std::count_if(mapped.begin(), mapped.end(), [](int i) { return i >= 0; });
+  const Index pairs = std::max<Index>(options.step, std::min<Index>(first_pairs, given));
+  const MatrixXd start = pulled(bases, known, mapped, std::min<Index>({options.k, pairs, bases.size()}));
   return refined(bases, start, points, options);
 }
 

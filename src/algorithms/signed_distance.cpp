@@ -33,6 +33,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// The part of the memory for the two factors of heat (scalars, vectors); the factor of L gets the rest.
 constexpr double heat_share = 0.75;
 
+/// Heat: weights of the means over two curves that differ by less than this part of the greatest are equal.
+constexpr double equal_means = 1e-13;
+
 /// Heat: how many solves are made at once for the shifts of curves, which bounds their memory.
 constexpr Eigen::Index shifts_at_once = 16;
 
@@ -229,6 +232,8 @@ VectorXd SignedDistanceSolver::State::withMeanZero(VectorXd b, const SparseMatri
   if (count > 0) {
     SparseMatrix difference(L.rows(), count);
     difference.setFromTriplets(entries.begin(), entries.end());
+    // Means over equal curves that are cut differently differ by rounding, which counts as none.
+    difference.prune(mean.coeffs().maxCoeff(), equal_means);
     Eigen::MatrixXd answers(count, count);
     for (Eigen::Index c = 0; c < count; c += shifts_at_once) {
       const Eigen::Index columns = std::min(shifts_at_once, count - c);

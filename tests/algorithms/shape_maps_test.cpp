@@ -88,8 +88,17 @@ TEST_F(ShapeMaps, ZoomOutStartsFromAFewPoints) {
   const int n = static_cast<int>(a.laplacian.status.size());
   std::vector<int> to_source(static_cast<std::size_t>(n), -1);
   for (int i = 0; i < n; i += 40) to_source[i] = n - 1 - i;
-  const PointMaps maps = pointMaps(a, b, zoomOut(a, b, to_source, {.k = 60, .step = 5, .samples = 200}));
+  const PointMaps maps = pointMaps(a, b, zoomOut(a, b, to_source, {.k = 60, .samples = 200}));
   for (int i = 0; i < n; ++i) EXPECT_EQ(maps.to_source[i], n - 1 - i);
+}
+
+TEST_F(ShapeMaps, DoNotDependOnTheUnitOfDescriptors) {
+  const Shape a = flat(), b = rolled();
+  const Eigen::MatrixXd x = a.laplacian.positions, y = x.colwise().reverse();
+  const auto map = [&](double unit) {
+    return functionalMap(a, b, {.source_descriptors = unit * x, .target_descriptors = unit * y});
+  };
+  for (const double unit : {0x1p-600, 0x1p600}) EXPECT_EQ(map(unit), map(1)) << unit;
 }
 
 TEST_F(ShapeMaps, LeaveOutPointsThatTakeNoPart) {
@@ -122,6 +131,9 @@ TEST_F(ShapeMaps, NameMistakes) {
           "no column that is");
   refuses([&] { functionalMap(a, a, {.weights = VectorXd::Ones(2)}); }, "weights has 2 values, must have 0");
   refuses([&] { functionalMap(a, a, {.landmarks = {{0, 676}}}); }, "landmarks has 676, must lie in [0, 676)");
+  Laplacian without = a.laplacian;
+  without.positions.resize(0, 3);
+  refuses([&] { zoomOut({without, a.pairs}, a, C); }, "zoomOut: Laplacian::positions has 0 rows");
   refuses([&] { zoomOut(a, a, C, {.step = 0}); }, "zoomOut: step = 0, must be at least 1");
   refuses([&] { zoomOut(a, a, C, {.samples = -1}); }, "samples = -1, must be at least 0");
   refuses([&] { zoomOut(a, a, std::vector<int>(3)); }, "to_source has 3 indices, must have 676");
@@ -129,7 +141,7 @@ TEST_F(ShapeMaps, NameMistakes) {
   refuses([&] { zoomOut(a, a, std::vector<int>(676, -1)); }, "to_source has no index of at least 0");
   refuses([&] { pointMaps(a, a, C.topRows(2)); }, "pointMaps: C is 2 x 3, must be k x k");
   refuses([&] { pointMaps(a, a, C / 0); }, "C has a value that is not finite");
-  refuses([&] { pointMaps({a.laplacian, Spectrum()}, a, C); }, "a spectrum has 0 values");
+  refuses([&] { pointMaps({a.laplacian, Spectrum()}, a, C); }, "the spectrum of the source has 0 values");
 }
 
 }  // namespace

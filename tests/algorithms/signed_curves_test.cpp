@@ -155,6 +155,41 @@ TEST(SignedCurves, ByHeatHaveTheMeanZeroOverEach) {
   }
 }
 
+TEST(SignedCurves, ByHeatOfOneCurveInOtherPiecesAddNothing) {
+  const Case square = made(shapes::gridSquare(16));
+  const auto inside = [](const Eigen::RowVector3d& p) { return 0.3 - std::hypot(p.x() - 0.47, p.y() - 0.52); };
+  const std::vector<SurfaceCurve> whole =
+      slices(square.mesh.points, square.mesh.triangles, valuesOf(square.mesh.points, inside));
+  ASSERT_EQ(whole.size(), 1u);
+  // The same circle from another place on.
+  SurfaceCurve turned(whole[0].begin() + 5, whole[0].end());
+  turned.insert(turned.end(), whole[0].begin() + 1, whole[0].begin() + 6);
+  const VectorXd alone = square.heat.queryAt(whole), both = square.heat.queryAt({whole[0], turned});
+  EXPECT_LT((alone - both).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(SignedCurves, OnABoxHaveTheirSideAcrossItsEdges) {
+  const Case box = made(shapes::cubeMesh(6, shapes::Quality::good));
+  // The rim of the top, seen from above against the clock: the top is on its left.
+  const Points& points = box.mesh.points;
+  const double top = points.col(2).maxCoeff();
+  std::vector<std::pair<double, int>> rim;
+  for (int i = 0; i < points.rows(); ++i) {
+    const Eigen::RowVector3d p = points.row(i) - Eigen::RowVector3d::Constant(0.5);
+    if (points(i, 2) > top - 1e-9 && std::max(std::abs(p.x()), std::abs(p.y())) > 0.5 - 1e-9)
+      rim.emplace_back(std::atan2(p.y(), p.x()), i);
+  }
+  std::sort(rim.begin(), rim.end());
+  std::vector<int> loop;
+  for (const auto& [angle, i] : rim) loop.push_back(i);
+  loop.push_back(loop[0]);
+  const VectorXd distance = box.marching.query(loop);
+  for (int i = 0; i < points.rows(); ++i) {
+    if (std::find(loop.begin(), loop.end(), i) != loop.end()) continue;
+    EXPECT_EQ(distance[i] > 0, points(i, 2) > top - 1e-9) << points.row(i);
+  }
+}
+
 TEST(SignedCurves, OfPlacesAtCornersAreThoseOfVertices) {
   const Case square = made(shapes::gridSquare(12));
   const Triangles& triangles = square.mesh.triangles;

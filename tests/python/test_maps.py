@@ -113,7 +113,7 @@ def test_zoom_out_starts_from_points_too(meshes):
     uv, first, second = meshes
     start = np.arange(len(uv))
     start[::3] = -1
-    maps = tufted.point_maps(first, second, tufted.zoom_out(first, second, start, k=60, step=10, samples=None))
+    maps = tufted.point_maps(first, second, tufted.zoom_out(first, second, start, k=60, samples=None))
     np.testing.assert_array_equal(maps.to_source, np.arange(len(uv)))
 
 

@@ -64,7 +64,9 @@ double fromCircle(const Eigen::RowVector3d& p, double radius) {
 
 /// Prints by how much the magnitude of both methods differs from DistanceSolver's from the places of the curve.
 void printReal(const char* name) {
-  const Geometry mesh = read(std::filesystem::path(TUFTED_DATA_DIR).parent_path() / "real/shapes" / name);
+  const std::filesystem::path file = std::filesystem::path(TUFTED_DATA_DIR).parent_path() / "real/shapes" / name;
+  if (!std::filesystem::exists(file)) return;
+  const Geometry mesh = read(file);
   const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
   const Frames frames = meshFrames(mesh.points, mesh.triangles);
   const Eigen::VectorXd height = mesh.points.col(1);

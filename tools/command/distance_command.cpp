@@ -43,7 +43,7 @@ position than from its own neighbours, a warning says so.
 
 Files in DIR, which replace older ones when all are complete:
   distance.npy  N distances, float64; with --matrix N x K, a column for each source. Between two sources, distances
-                found from either end differ by up to 0.3 % of the largest; --symmetric writes their mean
+                found from either end differ by up to 6 % of the largest; --symmetric writes their mean
   labels.npy    with --labels: N numbers of the nearest source, int32, from 0 in the order --source, --near, --sources,
                 --face; -1 where no path leads
   points.ply    the points with the field distance, float32; points.pcd with --format pcd

@@ -27,7 +27,7 @@ def _in_threads(call, count, threads):
 def _is_place(item):
     """Whether an item of a curve is a place, an index or (face, barycentric coordinates), and not a curve."""
     return not hasattr(item, "__len__") or (
-        len(item) == 2 and not hasattr(item[0], "__len__") and hasattr(item[1], "__len__"))
+        len(item) == 2 and not hasattr(item[0], "__len__") and hasattr(item[1], "__len__") and len(item[1]) == 3)
 
 
 class Distances:
@@ -71,11 +71,11 @@ class Distances:
     def distance_matrix(self, sources, *, symmetric=False, method="marching", split=None, maximum=None, time_step=None,
                         unit=None, open_boundary=None, progress=None):
         """The geodesic distance of every point from each of some sources, as `tufted distance --matrix`: the sources
-        are marched from at once on as many threads as the surface may use.
+        are marched from at once on as many threads as the surface may use. Each must lie on a component.
 
         sources: S indices. method, split, maximum, time_step, unit, open_boundary: as in distance().
         symmetric: whether the distances between sources, found from either end, are replaced by the mean of both. They
-        differ by up to .3 % of the largest distance.
+        differ by some thousandths of the largest distance on smooth surfaces, on coarse meshes by up to 6 %.
         Returns N x S, length.
         """
         where = check.indices("distance_matrix", "sources", sources, len(self))

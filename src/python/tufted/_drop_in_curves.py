@@ -115,8 +115,8 @@ class MeshSignedHeatSolver(_MeshPlaces):
 
     def compute_distance(self, curves, curve_signs=(), points=(), preserve_source_normals=False,
                          level_set_constraint="ZeroSet", soft_level_set_weight=-1):
-        """Distances from the nearest of some curves and points: N values, positive to the left of curves; infinite
-        where no path leads.
+        """Signed distances from curves, which count as pieces of one, or the distances from points and curves without
+        sign where these are less: N values, positive to the left of curves; infinite where no path leads.
 
         curves: lists of places as in MeshFastMarchingDistanceSolver; all with a sign count as pieces of one.
         curve_signs: a boolean for each curve, False for distances without sign; empty: all have one.

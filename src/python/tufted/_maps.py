@@ -14,8 +14,8 @@ _PAIRS = 100
 def functional_map(source, target, descriptors=None, *, landmarks=(), weights=None, k=30, commutativity=0.03,
                    progress=None):
     """Finds the functional map that carries functions on one shape to another (Ovsjanikov, Ben-Chen, Solomon,
-    Butscher, Guibas 2012): the matrix C that minimises |C A - B|^2 + commutativity |C D - E C|^2. Each row of C solves
-    a system of its own. A and B are the coefficients of descriptors, scaled to norm 1, D and E the eigenvalues.
+    Butscher, Guibas 2012): the matrix C that minimises |C A - B|^2 / D + commutativity |C E - E' C|^2 / e^2. A and B
+    are the coefficients of D descriptors, scaled to norm 1, E and E' the eigenvalues, and e is the largest of them.
 
     Both shapes are scaled to area 1 for it, so they may have different units. A shape that is its own mirror image has
     two maps of equal cost, and the one found may be the mirrored one, or a mixture: give landmarks, some of them off
@@ -29,8 +29,7 @@ def functional_map(source, target, descriptors=None, *, landmarks=(), weights=No
     wave kernels around them.
     weights: D values >= 0, one per column of `descriptors`, that multiply its misfit; None: ones.
     k: number of eigenpairs, zeros included; fewer if a shape has fewer.
-    commutativity: >= 0; larger values ask more for a map that commutes with the Laplacians. Eigenvalues are divided by
-    the largest one for it, and the misfit of descriptors by their number.
+    commutativity: >= 0; larger values ask more for a map that commutes with the Laplacians.
     progress: see Surface.
     Returns C, k x k: from the coefficients of a function on the source to those on the target, in bases of norm 1.
 
