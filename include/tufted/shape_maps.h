@@ -64,7 +64,7 @@ struct ZoomOutOptions {
 /// from point to point of a functional map, and the functional map with more eigenpairs of that.
 /// @param C of functionalMap(); one of options.k rows or more is returned as it is
 /// @return k x k
-/// @throws InvalidInput for arrays of the wrong size, no positions, options out of range, an area of 0, or an infinite C
+/// @throws InvalidInput for arrays of the wrong size, no positions, options out of range, area 0 or an infinite C
 /// @throws Cancelled when `options.progress` returns false
 Eigen::MatrixXd zoomOut(const MappedShape& source, const MappedShape& target, const Eigen::MatrixXd& C,
                         const ZoomOutOptions& options = {});
