@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -30,7 +29,6 @@ namespace {
 constexpr const char* function_name = "segments";
 /// Number of segments by default, if there are as many points.
 constexpr int usual_count = 8;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
   const std::string name = std::string(function_name) + ": ";
