@@ -81,7 +81,7 @@ class Drawing {
       // A line of one place has a second point, without which round caps are not drawn.
       for (Eigen::Index k = 0; k < std::max<Eigen::Index>(2, line->points.rows()); ++k) {
         const Eigen::Vector2d at = halved(line->points.row(std::min(k, line->points.rows() - 1))) - box_.min();
-        to.append((k == 0 ? "M" : "L") + text(margin + scale_ * at.x()) + " " +
+        to.append(std::string(k == 0 ? "M" : "L") + text(margin + scale_ * at.x()) + " " +
                   text(margin + size.y() - scale_ * at.y()));
       }
       to.append(line->is_closed ? "Z\"/>\n" : "\"/>\n");

@@ -88,7 +88,9 @@ TEST(Zip, LibzipReadsWhatIsWritten) {
 
 /// A number of `size` bytes, its lowest first.
 std::string number(std::uint64_t value, std::size_t size) {
-  return {reinterpret_cast<const char*>(&value), size};
+  std::string bytes(size, '\0');
+  for (std::size_t i = 0; i < std::min<std::size_t>(size, 8); ++i) bytes[i] = static_cast<char>(value >> (8 * i));
+  return bytes;
 }
 
 /// An archive of one stored file "a" per text, as zipfile of Python writes it.
