@@ -191,7 +191,7 @@ def test_a_spectrum_at_hand_serves_signatures(meshes):
     (lambda a, b: tufted.functional_map(a, b, weights=[1]), "weights is given, must be None without descriptors"),
     (lambda a, b: tufted.functional_map(a, b, a.M), "descriptors must be a pair"),
     (lambda a, b: tufted.functional_map(a, b, (a.M, b.points)), "descriptors have 1 and 3 columns"),
-    (lambda a, b: tufted.functional_map(a, b, (a.M, np.full(len(b), np.nan))), "descriptors have a value that is not"),
+    (lambda a, b: tufted.functional_map(a, b, (a.M, np.full(len(b), np.nan))), "descriptors of the target have a value that is not"),
     (lambda a, b: tufted.functional_map(a, b, (a.M, b.M), weights=[-1]), "weights has -1, must be finite"),
     (lambda a, b: tufted.functional_map(a, b, landmarks=[[0, 10**6]]), "landmarks has 1000000, must lie in [0, 1326)"),
     (lambda a, b: tufted.functional_map(a, b, landmarks=[0, 1, 2]), "landmarks has the shape 3, must be P x 2"),
