@@ -2,6 +2,7 @@
 #include "tufted/distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -51,6 +52,12 @@ struct DistanceSolver::State {
   SolverReport report;
 
   bool isActive(int point) const { return components.of[point] >= 0; }
+  /// Whether a source, at representatives, lies on a component.
+  bool takesPart(const SurfacePoint& source) const {
+    return (source.weights[0] > 0 && isActive(source.corners[0])) ||
+           (source.weights[1] > 0 && isActive(source.corners[1])) ||
+           (source.weights[2] > 0 && isActive(source.corners[2]));
+  }
   std::vector<SurfacePoint> checked(const std::vector<SurfacePoint>& sources) const;
   NearestSources nearestByHeat(const std::vector<PlaceInCover>& places, const Progress& progress,
                                DistanceReport& made) const;
@@ -106,10 +113,8 @@ std::vector<SurfacePoint> DistanceSolver::State::checked(const std::vector<Surfa
   bool has_one = false;
   for (SurfacePoint& source : found) {
     checkPlace(query_name, source, static_cast<int>(representative.size()));
-    for (int k = 0; k < 3; ++k) {
-      source.corners[k] = representative[source.corners[k]];
-      has_one |= isActive(source.corners[k]) && source.weights[k] > 0;
-    }
+    for (int& corner : source.corners) corner = representative[corner];
+    has_one |= takesPart(source);
   }
   if (!has_one) {
     int k = 0;
@@ -206,14 +211,12 @@ Eigen::MatrixXd DistanceSolver::matrix(const std::vector<SurfacePoint>& sources,
   Eigen::MatrixXd distance = Eigen::MatrixXd::Constant(std::ssize(state.representative), std::ssize(sources), infinity);
   std::vector<int> rows;
   for (std::size_t s = 0; s < known.size(); ++s) {
-    const auto& [corners, weights, distances, sides] = known[s];
+    const std::array<int, 3>& corners = known[s].corners;
     if (symmetric && (corners[0] != corners[1] || corners[1] != corners[2]))
       throw InvalidInput("DistanceSolver::matrix: source " + std::to_string(s) +
                          " lies inside a triangle, must be a vertex if symmetric");
     rows.push_back(corners[0]);
-    bool is_active = false;
-    for (int k = 0; k < 3; ++k) is_active |= state.isActive(corners[k]) && weights[k] > 0;
-    if (!is_active) continue;
+    if (!state.takesPart(known[s])) continue;
     DistanceReport one;
     distance.col(static_cast<Eigen::Index>(s)) = queryAt({sources[s]}, &one, progress);
     made.add(one);

@@ -45,10 +45,9 @@ class March {
         heap_(faces.size()) {}
 
   /// Marches from starts of one source over all faces.
-  MarchResult overAll(std::span<const MarchStart> starts) {
-    begin(starts);
-    while (takeNearest()) spread();
-    limitSlopes();
+  MarchResult overAll(std::vector<MarchStart> starts) {
+    keepBehindLines(starts);
+    marchFrom(starts);
     result_.distance = std::move(distance_);
     return std::move(result_);
   }
@@ -63,7 +62,7 @@ class March {
 
   /// Marches from the starts, sorted by source, each source where it may be nearer than the result and the others.
   void where(std::vector<MarchStart> starts, MarchResult& result) {
-    for (MarchStart& start : starts) start.distance = distanceOf(start);
+    keepBehindLines(starts);
     bound_ = result.distance;
     longest_.resize(faces_.size(), 0);
     edges_beside_.resize(faces_.size(), 0);
@@ -74,9 +73,7 @@ class March {
     }
     parts_ = static_cast<double>(sources.size());
     for (const auto& own : sources) {
-      begin(own);
-      while (takeNearest()) spread();
-      limitSlopes();
+      marchFrom(own);
       takeWhereNearer(result);
       ++part_;
     }
@@ -94,6 +91,19 @@ class March {
     double distance;
   };
 
+  /// Raises the distances of starts to the straight lines: in a face, a source may be nearer to the midpoint of a bent
+  /// edge than to the position assumed for it, halfway between the ends.
+  void keepBehindLines(std::vector<MarchStart>& starts) const {
+    for (MarchStart& start : starts)
+      start.distance = std::max(start.distance, straightBetween(start.vertex, start.source));
+  }
+
+  void marchFrom(std::span<const MarchStart> starts) {
+    begin(starts);
+    while (takeNearest()) spread();
+    limitSlopes();
+  }
+
   void begin(std::span<const MarchStart> starts) {
     farthest_ = 0;
     late_.clear();
@@ -102,14 +112,8 @@ class March {
     source_ = starts[0].source;
     for (const MarchStart& start : starts) {
       if (!bound_.empty()) edges_beside_[start.vertex] = 0;
-      offer(start.vertex, distanceOf(start));
+      offer(start.vertex, start.distance);
     }
-  }
-
-  /// In a face, a source may be nearer to the midpoint of a bent edge than to the position assumed for it, halfway
-  /// between the ends.
-  double distanceOf(const MarchStart& start) const {
-    return std::max(start.distance, straightBetween(start.vertex, start.source));
   }
 
   /// Takes the distances that are less than those of sources before, of equal ones that of the first, and forgets the
@@ -280,7 +284,7 @@ class March {
   std::vector<int> nearest_;
   std::vector<Corner> fans_;  ///< the triangles around each of `nearest_`
   std::vector<Offer> offers_;
-  // Of several sources.
+  // The members below serve marches from several sources. One source alone leaves them empty.
   std::vector<double> bound_;    ///< no distance from the nearest source is greater
   std::vector<double> longest_;  ///< edge at each vertex; 0: not known yet
   /// Edges to the nearest vertex where the source may be the nearest.

@@ -18,9 +18,6 @@ class MarchHeap {
   /// @param size numbers lie in [0, size)
   explicit MarchHeap(std::size_t size) : place_(size, absent) {}
 
-  /// Extends the range of numbers by `count`.
-  void grow(int count) { place_.resize(place_.size() + static_cast<std::size_t>(count), absent); }
-
   bool empty() const { return entries_.empty(); }
   const Entry& top() const { return entries_.front(); }
 
