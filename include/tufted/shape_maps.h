@@ -68,7 +68,7 @@ struct ZoomOutOptions {
 /// @throws Cancelled when `options.progress` returns false
 Eigen::MatrixXd zoomOut(const MappedShape& source, const MappedShape& target, const Eigen::MatrixXd& C,
                         const ZoomOutOptions& options = {});
-/// The same from a map from point to point.
+/// Refines a map that is given from point to point.
 /// @param to_source for each point of the target one of the source, negative for none; at least one is given
 Eigen::MatrixXd zoomOut(const MappedShape& source, const MappedShape& target, const std::vector<int>& to_source,
                         const ZoomOutOptions& options = {});

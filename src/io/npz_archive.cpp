@@ -6,12 +6,11 @@
 #include <initializer_list>
 
 #include "io/npy.h"
+#include "io/zip_reader.h"
 
 namespace tufted::io {
 namespace {
 
-/// The largest value of a field of four bytes. It says that the number is in a field of eight bytes elsewhere (Zip64).
-constexpr std::uint64_t elsewhere = 0xffffffff;
 /// Versions of the format that a reader must know, without and with numbers of eight bytes.
 constexpr std::uint64_t plain_version = 20, zip64_version = 45;
 /// The date is always 1 January 1980, so that equal arrays give equal files.
@@ -39,8 +38,8 @@ void NpzArchive::add(const std::string& name, std::string_view descr, const std:
   uLong checksum = crc32_z(0, reinterpret_cast<const Bytef*>(npy.data()), npy.size());
   if (bytes > 0) checksum = crc32_z(checksum, static_cast<const Bytef*>(values), bytes);
   const std::uint64_t all = npy.size() + bytes;
-  const bool is_large = std::max(all, written_) >= elsewhere;
-  const std::uint64_t size = is_large ? elsewhere : all, version = is_large ? zip64_version : plain_version;
+  const bool is_large = std::max(all, written_) >= zip64_field;
+  const std::uint64_t size = is_large ? zip64_field : all, version = is_large ? zip64_version : plain_version;
 
   std::string local;
   append(local, {{0x04034b50, 4}, {version, 2}, {0, 2}, {0, 2}, {0, 2}, {first_day, 2}, {checksum, 4}, {size, 4}});
@@ -50,7 +49,7 @@ void NpzArchive::add(const std::string& name, std::string_view descr, const std:
 
   append(directory_, {{0x02014b50, 4}, {version, 2}, {version, 2}, {0, 2}, {0, 2}, {0, 2}, {first_day, 2}});
   append(directory_, {{checksum, 4}, {size, 4}, {size, 4}, {name.size(), 2}, {is_large ? 28u : 0u, 2}, {0, 2}, {0, 2}});
-  append(directory_, {{0, 2}, {0, 4}, {is_large ? elsewhere : written_, 4}});
+  append(directory_, {{0, 2}, {0, 4}, {is_large ? zip64_field : written_, 4}});
   directory_ += name;
   if (is_large) append(directory_, {{1, 2}, {24, 2}, {all, 8}, {all, 8}, {written_, 8}});
 
@@ -64,13 +63,13 @@ void NpzArchive::add(const std::string& name, std::string_view descr, const std:
 void NpzArchive::close() {
   std::string end;
   const std::uint64_t size = directory_.size();
-  if (written_ >= elsewhere) {
+  if (written_ >= zip64_field) {
     append(end, {{0x06064b50, 4}, {44, 8}, {zip64_version, 2}, {zip64_version, 2}, {0, 4}, {0, 4}});
     append(end, {{arrays_, 8}, {arrays_, 8}, {size, 8}, {written_, 8}});
     append(end, {{0x07064b50, 4}, {0, 4}, {written_ + size, 8}, {1, 4}});  // where the record above begins
   }
   append(end, {{0x06054b50, 4}, {0, 2}, {0, 2}, {arrays_, 2}, {arrays_, 2}, {size, 4}});
-  append(end, {{std::min(written_, elsewhere), 4}, {0, 2}});
+  append(end, {{std::min(written_, zip64_field), 4}, {0, 2}});
   file_.write(directory_);
   file_.write(end);
   file_.close();

@@ -12,8 +12,6 @@ namespace {
 /// Sizes of the records without the texts of varying size at their ends.
 constexpr std::uint64_t local_bytes = 30, entry_bytes = 46, end_bytes = 22, zip64_end_bytes = 56, locator_bytes = 20;
 constexpr std::uint64_t most_comment_bytes = 65535;
-/// Fields with all bits set refer to a field of eight bytes elsewhere (Zip64).
-constexpr std::uint64_t elsewhere = 0xffffffff;
 
 /// A number of at most eight bytes, its lowest byte first, which must lie in the text.
 std::uint64_t number(std::string_view text, std::uint64_t at, std::size_t bytes) {
@@ -36,7 +34,7 @@ bool readLargeNumbers(std::string_view extra, std::initializer_list<std::uint64_
     extra.remove_prefix(4 + field.size());
   }
   for (std::uint64_t* const value : numbers) {
-    if (*value != elsewhere) continue;
+    if (*value != zip64_field) continue;
     if (large.size() < 8) return false;
     *value = number(large, 0, 8);
     large.remove_prefix(8);
@@ -56,7 +54,7 @@ std::optional<Directory> findDirectory(std::string_view bytes) {
   const std::uint64_t end = bytes.size() - tail + found;
   if (!isAt(bytes, end, end_bytes, "PK\5\6")) return {};
   const std::uint64_t start = number(bytes, end + 16, 4);
-  if (start != elsewhere) return Directory{start, end};
+  if (start != zip64_field) return Directory{start, end};
   if (end < locator_bytes || !isAt(bytes, end - locator_bytes, locator_bytes, "PK\6\7")) return {};
   const std::uint64_t large_end = number(bytes, end - locator_bytes + 8, 8);
   if (!isAt(bytes, large_end, zip64_end_bytes, "PK\6\6")) return {};
@@ -88,7 +86,7 @@ std::optional<std::map<std::string, ZipEntry, std::less<>>> readZipDirectory(std
     if (values > bytes.size() || packed_size > bytes.size() - values) return {};
     entry.packed = bytes.substr(values, packed_size);
     if (entry.is_readable && method == 0 && packed_size != entry.size) return {};
-    // Of two files with one name, others may read the other one.
+    // Of two files with the same name numpy reads the last one, and this table would keep the first.
     if (!entries.emplace(bytes.substr(at + entry_bytes, name_bytes), entry).second) return {};
     at = next;
   }

@@ -11,6 +11,9 @@
 
 namespace tufted::io {
 
+/// In a ZIP archive, a field of four bytes with this value says that its number has a field of eight bytes (Zip64).
+constexpr std::uint64_t zip64_field = 0xffffffff;
+
 /// A file in a ZIP archive, as the directory of the archive describes it.
 struct ZipEntry {
   std::string_view packed;
