@@ -109,10 +109,7 @@ Eigen::MatrixXd addNearest(const Settings& settings, const tufted::DistanceSolve
                            tufted::DistanceReport& made, Results& results) {
   if (!settings.labels) return solver.queryAt(sources, &made, source.progress);
   const tufted::NearestSources found = solver.nearest(sources, &made, source.progress);
-  results.arrays.push_back(
-      {.name = "labels",
-       .values = Eigen::Map<const Eigen::VectorXi>(found.source.data(), std::ssize(found.source)).cast<double>(),
-       .is_integer = true});
+  results.arrays.push_back({.name = "labels", .values = columnOf(found.source), .is_integer = true});
   return found.distance;
 }
 

@@ -77,7 +77,7 @@ void check(Settings& settings, const Operator& source) {
   }
 }
 
-/// As many of the first eigenpairs as there are, at most `count`.
+/// Finds the first `count` eigenpairs of a shape, or all if it has fewer.
 /// @throws IoError for a shape that cannot be mapped
 tufted::Spectrum pairsOf(const std::string& name, const tufted::Laplacian& laplacian, int count,
                          const Operator& source) {
@@ -91,10 +91,6 @@ tufted::Spectrum pairsOf(const std::string& name, const tufted::Laplacian& lapla
     throw tufted::IoError(name + ": fewer than two of its " + std::to_string(pairs.values.size()) +
                           " first eigenvalues are positive, as it has many components or few points");
   return pairs;
-}
-
-Eigen::MatrixXd columnOf(const std::vector<int>& points) {
-  return Eigen::Map<const Eigen::VectorXi>(points.data(), std::ssize(points)).cast<double>();
 }
 
 /// The mean distance of points from where a map and its inverse bring them, over the root of the area.

@@ -94,6 +94,11 @@ struct Operator {
   }
 };
 
+/// Integers as a column of a result.
+inline Eigen::MatrixXd columnOf(const std::vector<int>& values) {
+  return Eigen::Map<const Eigen::VectorXi>(values.data(), std::ssize(values)).cast<double>();
+}
+
 /// The results of a command.
 struct Results {  // NOLINT(bugprone-exception-escape): moves of its json, which do not throw
   std::vector<tufted::ResultArray> arrays;

@@ -114,7 +114,6 @@ Results compute(Settings& settings, Operator& source) {
       uv = tufted::parameterize(source.laplacian, triangles, settings.options, &made);
     else
       corners = tufted::parameterizeCut(source.laplacian, triangles, settings.cuts, settings.options, &made);
-    return 0;
   });
   if (!settings.cut.empty()) {
     uv.setConstant(source.points(), 2, std::numeric_limits<double>::quiet_NaN());

@@ -88,12 +88,7 @@ Results compute(Settings& settings, Operator& source) {
   const tufted::Segments found = !settings.seeds.empty() ? forOption("--seeds " + settings.seeds, compute)
                                  : count                 ? forOption("--count " + std::to_string(*count), compute)
                                                          : compute();
-  Eigen::VectorXd labels(std::ssize(found.labels));
-  long long without = 0;
-  for (std::size_t i = 0; i < found.labels.size(); ++i) {
-    labels[static_cast<Eigen::Index>(i)] = found.labels[i];
-    without += found.labels[i] < 0 ? 1 : 0;
-  }
+  const long long without = std::count(found.labels.begin(), found.labels.end(), -1);
   results.report["report"] = {{"method", nameOf(settings.options.method)},
                               {"seeds", found.seeds},
                               {"areas", std::vector<double>(found.areas.begin(), found.areas.end())},
@@ -102,7 +97,7 @@ Results compute(Settings& settings, Operator& source) {
   results.summary.add("segments", "%lld, areas from %.6g to %.6g", static_cast<long long>(found.areas.size()),
                       found.areas[found.areas.size() - 1], found.areas[0]);
   results.summary.add("without label", "%lld points", without);
-  results.arrays = {{.name = "labels", .values = labels, .is_integer = true}};
+  results.arrays = {{.name = "labels", .values = columnOf(found.labels), .is_integer = true}};
   return results;
 }
 

@@ -62,8 +62,8 @@ void addArrays(const std::filesystem::path& folder, const std::vector<std::strin
   std::vector<SceneField> fields;
   for (const std::filesystem::path& file : files) {
     const std::string name = file.stem().string();
-    if (name == "frames" || name == "measured_positions" || name == "representative" || name == "filtered_positions" ||
-        name == "file_row" || name == "to_target" || name == "map" || name == "corner_uv")
+    if (isOneOf(name, {"frames", "measured_positions", "representative", "filtered_positions", "file_row", "to_target",
+                       "map", "corner_uv"}))
       continue;
     Eigen::MatrixXd values = tufted::readArray(file);
     if (name == "path") {
