@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "tufted/options.h"
@@ -52,5 +53,11 @@ CloudDescription describeSample(const Points& points, const std::vector<int>& sa
 /// @return indices, ascending
 /// @throws InvalidInput for a smaller `most`
 std::vector<int> sampleRegions(const Points& points, int most);
+
+/// A sentence to warn of points that hover over a surface seen from above, as vegetation does in an airborne scan.
+/// Looks at 50,000 points at most. Not for depth images, whose bodies lie one before the other.
+/// @param points N x 3, z upwards
+/// @return empty if no such points were found, or if fewer than 1000 distinct points are finite
+std::string hoveringWarning(const Points& points);
 
 }  // namespace tufted

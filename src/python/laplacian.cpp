@@ -10,6 +10,7 @@
 #include "python/module.h"
 #include "python/running.h"
 #include "tufted/components.h"
+#include "tufted/describe.h"
 #include "tufted/dummy_values.h"
 #include "tufted/report.h"
 
@@ -116,6 +117,7 @@ void addLaplacian(py::module_& module) {
   addMembers(type);
   py::class_<ScanStructure>(module, "ScanStructure");
   module.def("build_cloud", &buildCloud);
+  module.def("hovering_warning", [](const Doubles& points) { return hoveringWarning(pointsOf(points)); });
   module.def("build_mesh", &buildMesh);
   module.def("image_structure", &imageStructure);
   module.def("is_depth_image", [](const Doubles& points, int width, int height, const Eigen::Vector3d& origin) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <sstream>
 
 #include "subcommands.h"
@@ -22,6 +23,21 @@ std::string sheet(const std::vector<int>& classes) {
     if (std::find(classes.begin(), classes.end(), kind) == classes.end()) continue;
     const double x = i % 20 + 0.1 * std::sin(i), y = i / 20 + 0.1 * std::cos(3 * i);
     text << x << ' ' << y << ' ' << 0.02 * x * y + (kind == 5 ? 4 : 0) << ' ' << kind << '\n';
+  }
+  return text.str();
+}
+
+/// A plane of 36 x 36 points with four balls of 90 points above it.
+std::string trees() {
+  std::mt19937_64 generator(101);
+  const auto random = [&] { return 2 * std::ldexp(static_cast<double>(generator() >> 11), -53) - 1; };
+  std::ostringstream text;
+  for (int i = 0; i < 36 * 36; ++i) text << i % 36 + 0.4 * random() << ' ' << i / 36 + 0.4 * random() << " 0\n";
+  for (int count = 0; count < 360;) {
+    const double x = random(), y = random(), z = random();
+    if (x * x + y * y + z * z > 1) continue;
+    text << 4 * x + 8 + count % 2 * 18 << ' ' << 4 * y + 8 + count / 180 * 18 << ' ' << 4 * z + 9 << '\n';
+    ++count;
   }
   return text.str();
 }
@@ -48,6 +64,46 @@ TEST_F(ChosenPoints, AreWhatInfoDescribes) {
   const auto highest = [](const Result& of) { return of.out.substr(of.out.find("highest"), 50); };
   EXPECT_EQ(highest(result), highest(alone));
   EXPECT_NE(highest(result), highest(whole));
+}
+
+TEST_F(ChosenPoints, AreAdvisedIfPointsHoverOverTheGround) {
+  const std::string file = dir_.write("trees.xyz", trees());
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"info"}, {"laplacian"}, {"denoise"}, {"normals"}, {"distance", "--source", "0"}}) {
+    std::vector<std::string> all = command;
+    all.insert(all.end(), {file, "--json"});
+    if (command[0] != "info") all.insert(all.end(), {"--out", in("hovering")});
+    const Result result = runTufted(all);
+    EXPECT_NE(result.err.find("vegetation"), std::string::npos) << command[0] << result.err;
+    EXPECT_NE(nlohmann::json::parse(result.out)["warnings"].dump().find("--where"), std::string::npos) << command[0];
+    all.insert(all.end(), {"--where", "z<1"});
+    run(all);  // without a warning
+  }
+  EXPECT_NE(run({"validate", file, "--json"}).out.find("vegetation"), std::string::npos);
+}
+
+TEST_F(ChosenPoints, AreThoseThatValidateAndViewTake) {
+  const std::vector<std::string> choice = {"--where", "classification=2", "--thin", "1.0000000001", "--json"};
+  const auto selectionOf = [&](std::vector<std::string> words) {
+    words.insert(words.end(), choice.begin(), choice.end());
+    const auto result = nlohmann::json::parse(runTufted(words).out);
+    return words[0] == "view" ? result["selection"] : result["files"][0]["selection"];
+  };
+  const auto validated = selectionOf({"validate", all_}),
+             viewed = selectionOf({"view", all_, "--out", in("page.html")});
+  EXPECT_EQ(validated, viewed);
+  EXPECT_EQ(viewed["points"], 400);
+  EXPECT_LT(viewed["kept"], 343);
+  EXPECT_EQ(viewed["thin"], 1.0000000001);
+  const std::string none = dir_.write("none.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 1\n");
+  const Result refused = runTufted({"validate", none, all_, "--where", "classification=2"});
+  EXPECT_NE(refused.out.find("REFUSED  " + none), std::string::npos) << refused.out;
+  EXPECT_NE(refused.out.find("OK"), std::string::npos) << refused.out;
+  run({"laplacian", all_, "--out", in("folder")});
+  expectRefusal({"view", in("folder"), "--where", "x<1"}, "is a folder of results");
+  const Result both = runTufted({"validate", all_, "--operator", in("folder"), "--where", "x<1"});
+  EXPECT_EQ(both.code, 2);
+  EXPECT_NE(both.err.find("--operator names a folder"), std::string::npos) << both.err;
 }
 
 TEST_F(ChosenPoints, ResultsAreThoseOfAFileOfThesePointsAlone) {

@@ -131,6 +131,32 @@ TEST_F(Info, LooksAtASampleOfALargeFile) {
   EXPECT_EQ(full["graph_parts"], 1);
 }
 
+TEST_F(Info, NamesTheReferenceSystemOfALasFile) {
+  const auto systemOf = [&](const std::vector<std::pair<std::uint16_t, std::string>>& records) {
+    LasFile file(4, 6);
+    for (const auto& [number, content] : records) file.addRecord("LASF_Projection", number, content);
+    for (int i = 0; i < 4; ++i) file.addPoint(i % 2, i / 2, 0);
+    const std::string path = dir_.write("system.las", file.bytes());
+    const std::string name = info(path).value("reference_system", "");
+    EXPECT_EQ(contains(runTufted({"info", path}).out, "crs             " + name + "\n"), !name.empty());
+    return name;
+  };
+  const auto keys = [](const std::vector<int>& numbers) {
+    std::string bytes;
+    for (const int number : numbers) bytes += {static_cast<char>(number % 256), static_cast<char>(number / 256)};
+    return bytes;
+  };
+  const std::string code = keys({1, 1, 0, 3, 1024, 0, 1, 1, 2048, 0, 1, 4258, 3072, 0, 1, 25832});
+  const std::string own = keys({1, 1, 0, 1, 3072, 0, 1, 32767}), text = "Gauss-Kruger|more|";
+  EXPECT_EQ(systemOf({}), "");
+  EXPECT_EQ(systemOf({{34735, code}, {34737, text}}), "EPSG:25832");
+  EXPECT_EQ(systemOf({{34735, own}, {34737, text}}), "Gauss-Kruger");
+  EXPECT_EQ(systemOf({{34735, code}, {2112, "PROJCS[\"ETRS89 / UTM zone 32N\",GEOGCS[\"ETRS89\"]]"}}),
+            "ETRS89 / UTM zone 32N");
+  EXPECT_EQ(systemOf({{34735, code.substr(0, 13)}, {2112, "PROJCS[\"cut"}}), "cut");
+  EXPECT_EQ(systemOf({{34735, "odd"}, {2112, ""}}), "");
+}
+
 TEST_F(Info, ACloudThatCannotFitIsRefusedUnread) {
   // The file is as long as its header says, but takes no room on the disk. A build would take 644 GB.
   const std::string file = dir_.write("huge.las", LasFile(4, 6).bytes());

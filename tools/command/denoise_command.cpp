@@ -119,7 +119,7 @@ int runDenoise(Settings& settings) {
   summary.add("took", "%.3g s, peak memory %.0f MB", done.seconds, peakMemory());
   summary.add("written to", "%s", settings.out.c_str());
   addLook(settings.look, summary);
-  std::vector<std::string> warnings = geometry.notes;
+  std::vector<std::string> warnings = warningsOf(settings.input.name(), geometry);
   for (const std::string& line : tufted::warnings(done)) warnings.push_back(settings.input.name() + ": " + line);
   for (const std::string& line : warnings) warn(bar, line);
   sayResults(settings.console, summary, settings.out, warnings);

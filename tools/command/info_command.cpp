@@ -49,6 +49,7 @@ takes about as long as a build. A mesh is built.
   graph parts   clouds, all points: parts of the graph that joins each point with its nearest neighbours. The connected
                 components of the triangles may be more or fewer; `tufted laplacian` finds them
   components    meshes: connected components
+  crs           LAS: name or EPSG code of the coordinate reference system
   class         LAS: number and name of a class, and the number of its points
   structure     only for a depth image, which is built by its pixels unless --neighbors is given
   to expect     time and peak memory of `tufted laplacian FILE --out DIR`, extrapolated from a build of the sample
@@ -83,10 +84,13 @@ Json describeFile(const Settings& settings, const tufted::FileHead& head) {
   Json fields = Json::array();
   for (const tufted::Field& field : geometry.fields)
     fields.push_back({{"name", field.name}, {"type", typeName(field.type)}, {"count", field.count}});
-  return {{"file", settings.input.name()}, {"format", geometry.format},  {"kind", geometry.is_mesh ? "mesh" : "cloud"},
-          {"points", head.points},         {"triangles", head.faces},    {"organized", geometry.height > 1},
-          {"width", geometry.width},       {"height", geometry.height},  {"viewpoint", geometry.viewpoint},
-          {"normals", head.has_normals},   {"fields", std::move(fields)}};
+  Json info = {
+      {"file", settings.input.name()}, {"format", geometry.format},  {"kind", geometry.is_mesh ? "mesh" : "cloud"},
+      {"points", head.points},         {"triangles", head.faces},    {"organized", geometry.height > 1},
+      {"width", geometry.width},       {"height", geometry.height},  {"viewpoint", geometry.viewpoint},
+      {"normals", head.has_normals},   {"fields", std::move(fields)}};
+  if (const std::string system = lasReferenceSystem(geometry); !system.empty()) info["reference_system"] = system;
+  return info;
 }
 
 /// Adds what only shows when the file is read.
@@ -210,7 +214,7 @@ int runInfo(Settings settings) {
   const std::string nothing = describePoints(settings, geometry, info);
   info["odd"] = findOddities(info, settings.input.weld);
   bar.clear();
-  std::vector<std::string> warnings = geometry.notes;
+  std::vector<std::string> warnings = warningsOf(settings.input.name(), geometry);
   if (!nothing.empty()) warnings.push_back(settings.input.name() + ": " + nothing);
   for (const std::string& warning : warnings) warn(bar, warning);
   info["warnings"] = warnings;

@@ -83,6 +83,8 @@ void printInfoHead(const Json& info) {
   if (info["kind"] == "mesh") std::printf("; %lld faces", integer(info, "triangles"));
   std::printf("\n");
   printFields(info);
+  if (info.contains("reference_system"))
+    std::printf("%-15s %s\n", "crs", info["reference_system"].get<std::string>().c_str());
   if (info["viewpoint"] != Json(tufted::Geometry().viewpoint))
     std::printf("%-15s %s\n", "viewpoint", info["viewpoint"].dump().c_str());
   std::fflush(stdout);

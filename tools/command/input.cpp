@@ -16,9 +16,6 @@
 #include "tufted/errors.h"
 #include "tufted/memory.h"
 
-namespace {
-
-/// Adds the options that choose points. inputsOf() finds the file of --polygon by its type.
 void addSelection(CLI::App& command, ChosenPoints& chosen) {
   command
       .add_option("--where", chosen.selection.where,
@@ -33,11 +30,13 @@ void addSelection(CLI::App& command, ChosenPoints& chosen) {
       .add_option("--polygon", chosen.polygon,
                   "Keep points in a polygon in x and y: text file of its corners, lines X Y; clouds only")
       ->check(notEmpty)
-      ->type_name("TEXT");
+      ->type_name("TEXT");  // by which inputsOf() finds it
   addNumber(command, "--thin", chosen.selection.thin, 1e-150, 1e150,
             "Then keep points of which no two are closer than this, in the unit of FILE; clouds only")
       ->type_name("SPACING");
 }
+
+namespace {
 
 /// The selection with the values of --crop and --polygon.
 tufted::Selection selectionOf(const ChosenPoints& chosen) {
@@ -145,10 +144,10 @@ double usableMemory() {
 }  // namespace
 
 std::string memoryText(const Input& input, std::int64_t points, double bytes) {
-  char text[200];
+  char text[300];
   std::snprintf(text, sizeof text,
                 ": L and M of %lld points take %.3g GB of memory or more, and %.3g GB are available; thin the points "
-                "(--thin), or cut the file into parts (--crop)",
+                "(--thin), cut the file into parts (--crop), or build rows by tiles (`tufted laplacian --memory`)",
                 static_cast<long long>(points), bytes / 1e9, usableMemory() / 1e9);
   return input.name() + text;
 }

@@ -48,6 +48,9 @@ struct Input {
   std::string name() const { return isStandardInput() ? "standard input" : file.string(); }
 };
 
+/// Adds --where, --crop, --polygon and --thin.
+void addSelection(CLI::App& command, ChosenPoints& chosen);
+
 /// Adds FILE, which is required, --as, and the options that choose points. Returns the option FILE.
 CLI::Option* addInput(CLI::App& command, Input& input);
 

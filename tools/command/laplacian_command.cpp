@@ -230,7 +230,7 @@ int runLaplacian(Settings& settings) {
       settings.look, geometry, [&] { return sceneOf(title, geometry, laplacian, {}); },
       [&] { tufted::writeLaplacian(settings.out, laplacian, geometry, write); });
   bar.clear();
-  std::vector<std::string> warnings = geometry.notes;
+  std::vector<std::string> warnings = warningsOf(settings.input.name(), geometry);
   for (const std::string& line : warningsOf(settings.input.name(), laplacian.report)) warnings.push_back(line);
   for (const std::string& warning : warnings) warn(bar, warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -15,3 +15,7 @@ struct LasClass {
 
 /// The classes that points of a LAS file have, by ascending number; none for other files.
 std::vector<LasClass> lasClasses(const tufted::Geometry& geometry);
+
+/// Name of the coordinate reference system of a LAS file: that of its WKT, or the EPSG code or citation of its GeoTIFF
+/// keys. Empty if there is none.
+std::string lasReferenceSystem(const tufted::Geometry& geometry);

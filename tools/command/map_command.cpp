@@ -109,7 +109,7 @@ Results compute(Settings& settings, Operator& source) {
   Results results;
   const std::string name = settings.from.name();
   const tufted::Laplacian other = buildLaplacian(settings.shape, settings.from, settings.build, false, source.progress);
-  results.warnings = settings.shape.notes;
+  results.warnings = warningsOf(name, settings.shape);
   for (const std::string& line : warningsOf(name, other.report)) results.warnings.push_back(line);
   constexpr int least_pairs = 100;  // wave kernel signatures of fewer tell less, see FunctionalMapOptions
   const int pairs = std::max(settings.count, least_pairs);

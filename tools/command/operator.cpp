@@ -187,7 +187,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
                                       settings.needsCover(source.geometry.is_mesh), source.progress);
   source.moved = std::move(settings.build.moved);
   checkpoint();
-  std::vector<std::string> warnings = source.geometry.notes;
+  std::vector<std::string> warnings = warningsOf(source.name, source.geometry);
   for (const std::string& line : warningsOf(source.name, source.laplacian.report)) warnings.push_back(line);
   Results chosen;
   chooseComponents(settings.components, source, chosen);

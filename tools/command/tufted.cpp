@@ -32,7 +32,9 @@ int runCommand(const Run& run) {
   } catch (const tufted::InvalidInput& error) {
     return fail(withoutClass(error.what()), exit_usage);
   } catch (const std::bad_alloc&) {
-    return fail("out of memory", exit_failed);
+    return fail(
+        "out of memory: fewer points take less (--thin, --crop), and `tufted laplacian --memory` builds by tiles",
+        exit_failed);
   } catch (const std::exception& error) {
     return fail(error.what(), exit_failed);
   }

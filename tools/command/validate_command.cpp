@@ -23,6 +23,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "input.h"
 #include "options.h"
 #include "progress_bar.h"
 #include "tufted/errors.h"
@@ -79,6 +80,7 @@ constexpr std::size_t most_text = 4096;  // most bytes shown of the output of a 
 struct Settings {
   std::vector<std::filesystem::path> paths, operators;
   tufted::ReadAs as = tufted::ReadAs::automatic;
+  ChosenPoints chosen;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   double seconds = 600;       ///< limit per file; 0: none
   std::optional<int> memory;  ///< limit per file, in MB
@@ -94,6 +96,11 @@ std::vector<std::string> wordsForOne(const std::filesystem::path& path, bool is_
   if (settings.memory) words.insert(words.end(), {"--memory", std::to_string(*settings.memory)});
   for (const auto& [word, as] : kinds)
     if (as == settings.as) words.insert(words.end(), {"--as", word});
+  const ChosenPoints& chosen = settings.chosen;
+  for (const std::string& condition : chosen.selection.where) words.insert(words.end(), {"--where", condition});
+  if (!chosen.crop.empty()) words.insert(words.end(), {"--crop", chosen.crop});
+  if (!chosen.polygon.empty()) words.insert(words.end(), {"--polygon", chosen.polygon.string()});
+  if (chosen.selection.thin > 0) words.insert(words.end(), {"--thin", Json(chosen.selection.thin).dump()});
   if (is_operator) words.emplace_back("--operator");
   words.push_back(std::filesystem::absolute(path).string());  // absolute, so that it does not look like an option
   return words;
@@ -245,6 +252,7 @@ int runOne(const Settings& settings) {
   return judge({.path = is_operator ? settings.operators.front() : settings.paths.front(),
                 .is_operator = is_operator,
                 .as = settings.as,
+                .chosen = settings.chosen,
                 // Each thread allocates a stack, which would make a memory limit depend on the machine.
                 .threads = settings.memory ? 1 : std::max(1, processors / settings.jobs),
                 .seconds = settings.seconds,
@@ -289,10 +297,13 @@ void addValidate(CLI::App& app, Run& run) {
   addChoice(command, "--as", settings->as, kinds,
             "Read each PATH as a point cloud or as a mesh (a mesh if the file has faces)")
       ->needs(paths);
+  addSelection(command, settings->chosen);
   command.add_flag("--one", settings->is_one)->group("");  // hidden in the help
   addConsole(command, settings->console);
   command.callback([&run, settings] {
     if (settings->paths.empty() && settings->operators.empty()) throw CLI::RequiredError("PATH or --operator");
+    if (settings->chosen.isAsked() && !settings->is_one && !settings->operators.empty())
+      throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to files, and --operator names a folder");
     run = [=] { return settings->is_one ? runOne(*settings) : runValidate(*settings); };
   });
 }

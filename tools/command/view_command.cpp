@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "input.h"
 #include "look.h"
 #include "options.h"
 #include "progress_bar.h"
@@ -33,6 +34,7 @@ The page is a single file that needs no network, for any browser with WebGL 2.)"
 
 struct Settings {
   std::filesystem::path what;
+  ChosenPoints chosen;  ///< of a file
   std::vector<std::string> fields;
   Look look;
   std::vector<NamedInput> inputs;
@@ -155,6 +157,9 @@ int runView(Settings& settings) {
   const bool is_folder = std::filesystem::is_directory(settings.what, error);
   if (!look.isWanted())
     look.page = is_folder ? (settings.what / "view.html").string() : settings.what.string() + ".html";
+  if (is_folder && settings.chosen.isAsked())
+    throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to a file, and " + settings.what.string() +
+                               " is a folder of results");
   checkLook(look, {}, settings.inputs);
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);
@@ -164,7 +169,11 @@ int runView(Settings& settings) {
   if (is_folder) {
     scene = sceneOfFolder(settings.what, geometry, progress);
   } else {
-    geometry = tufted::read(settings.what, tufted::ReadAs::automatic, tufted::FileFormat::automatic, progress);
+    Input input = {.file = settings.what, .chosen = settings.chosen};
+    geometry = settings.chosen.isAsked()
+                   ? readInput(input, progress)
+                   : tufted::read(settings.what, tufted::ReadAs::automatic, tufted::FileFormat::automatic, progress);
+    settings.chosen = input.chosen;
     scene = sceneOfPoints(settings.what.filename().string(), geometry);
   }
   const long long finite = finitePoints(scene);
@@ -176,7 +185,11 @@ int runView(Settings& settings) {
   bar.clear();
   for (const std::string& note : geometry.notes) warn(bar, note);
   Summary summary;
+  const ChosenPoints& chosen = settings.chosen;
   summary.add("points", "%lld", finite);
+  if (chosen.of > 0)
+    summary.add("chosen", "%lld of %lld points", static_cast<long long>(chosen.kept),
+                static_cast<long long>(chosen.of));
   if (finite < scene.positions.rows())
     summary.add("left out", "%lld, not finite", static_cast<long long>(scene.positions.rows()) - finite);
   if (scene.triangles.rows() > 0) summary.add("triangles", "%lld", static_cast<long long>(scene.triangles.rows()));
@@ -192,6 +205,7 @@ int runView(Settings& settings) {
     json["triangles"] = scene.triangles.rows();
     json["fields"] = nlohmann::ordered_json::array();
     for (const SceneField& field : scene.fields) json["fields"].push_back(field.name);
+    if (chosen.of > 0) json["selection"] = chosen.json();
     json["warnings"] = geometry.notes;
     if (!look.page.empty()) json["page"] = look.page.string();
     if (!look.png.empty()) json["picture"] = look.png.string();
@@ -222,6 +236,7 @@ void addView(CLI::App& app, Run& run) {
       .add_option("--field", settings->fields, "Show only this field; may be repeated, in the order of the page (all)")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  addSelection(command, settings->chosen);
   addPictureOptions(command, settings->look);
   addConsole(command, settings->console);
   command.callback([&run, &command, settings] {

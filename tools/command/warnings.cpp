@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <iterator>
 
+#include "tufted/describe.h"
+
 std::string nothingActive(const tufted::Laplacian& laplacian) {
   tufted::Report counts;
   counts.points = std::ssize(laplacian.status);
@@ -19,6 +21,13 @@ std::string nothingActive(const tufted::Laplacian& laplacian) {
 std::vector<std::string> warningsOf(const std::string& file, const tufted::Report& report) {
   std::vector<std::string> lines = tufted::warnings(report);
   for (std::string& line : lines) line = file + ": " + line;
+  return lines;
+}
+
+std::vector<std::string> warningsOf(const std::string& file, const tufted::Geometry& geometry) {
+  std::vector<std::string> lines = geometry.notes;
+  const std::string line = geometry.is_mesh || geometry.height > 1 ? "" : tufted::hoveringWarning(geometry.points);
+  if (!line.empty()) lines.push_back(file + ": " + line);
   return lines;
 }
 

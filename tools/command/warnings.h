@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "progress_bar.h"
+#include "tufted/io/read.h"
 #include "tufted/laplacian.h"
 
 /// How many points have which status if no point is active; otherwise an empty string.
@@ -11,6 +12,9 @@ std::string nothingActive(const tufted::Laplacian& laplacian);
 
 /// tufted::warnings() of a build, each preceded by the name of the file.
 std::vector<std::string> warningsOf(const std::string& file, const tufted::Report& report);
+
+/// What is to be said of a geometry that was read: its notes, and tufted::hoveringWarning() of a cloud without pixels.
+std::vector<std::string> warningsOf(const std::string& file, const tufted::Geometry& geometry);
 
 /// Clears the bar and writes a line to stderr.
 void warn(ProgressBar& bar, const std::string& line);

@@ -84,7 +84,7 @@ class PointCloud(Surface):
         laplacian = _tufted.build_cloud(points, options, normals, neighborhoods, structure,
                                         check.callback(name, progress))
         super().__init__(laplacian, points, None, solving, options)
-        self._warn()
+        self._warn(_tufted.hovering_warning(points) if structure is None else "")
 
     @staticmethod
     def _structure(name, points, image, rings, viewpoint):

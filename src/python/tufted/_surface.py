@@ -102,9 +102,9 @@ class Surface(Spectral, Distances, Equations, Shape, Figures):
         """Counts, lengths, areas, warnings and stages of the build, as a dict."""
         return self._laplacian.report
 
-    def _warn(self):
-        """Issues the warnings of the build's report, after building or loading."""
-        for sentence in self.report["warnings"]:
+    def _warn(self, more=""):
+        """Issues the warnings of the build's report, after building or loading, and one more if it is not empty."""
+        for sentence in filter(None, [*self.report["warnings"], more]):
             warnings.warn(f"{self._source or type(self).__name__}: {sentence}", TuftedWarning, stacklevel=3)
 
     def __len__(self):

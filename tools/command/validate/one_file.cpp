@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "../command.h"
 #include "../interrupt.h"
@@ -83,11 +84,23 @@ Json figuresOf(const tufted::LaplacianCheck& check, const tufted::Report& report
   return row;
 }
 
+/// Reads a file. @throws IoError also if points cannot be chosen, as the file is to blame: it may be one of many
+tufted::Geometry readFor(Input& input) {
+  try {
+    return readInput(input, {});
+  } catch (const tufted::InvalidInput& error) {
+    throw tufted::IoError(error.what());
+  }
+}
+
 /// Reads a file and builds its Laplacian as `tufted laplacian` does without options.
 /// @param[out] stage name of the current step, for messages of exceptions
 tufted::Laplacian buildFrom(const OneFile& file, Json& row, std::string& stage) {
-  const tufted::Geometry geometry = tufted::read(file.path, file.as);
-  if (!geometry.notes.empty()) row["warnings"] = geometry.notes;
+  Input input = {.file = file.path, .as = file.as, .chosen = file.chosen};
+  const tufted::Geometry geometry = readFor(input);
+  const std::vector<std::string> warnings = warningsOf(file.path.string(), geometry);
+  if (!warnings.empty()) row["warnings"] = warnings;
+  if (input.chosen.of > 0) row["selection"] = input.chosen.json();
   row["faces"] = geometry.triangles.rows();
   const tufted::Progress progress = [&stage](std::string_view now, double) {
     stage = now;

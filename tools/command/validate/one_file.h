@@ -3,13 +3,14 @@
 #include <filesystem>
 #include <optional>
 
-#include "tufted/io/read.h"
+#include "../input.h"
 
 /// A file to validate, or a folder that `tufted laplacian --out` wrote.
 struct OneFile {
   std::filesystem::path path;
   bool is_operator = false;  ///< whether it is a folder
   tufted::ReadAs as = tufted::ReadAs::automatic;
+  ChosenPoints chosen;
   int threads = 1;
   double seconds = 0;         ///< time limit, after which SIGALRM ends this process; 0: none
   std::optional<int> memory;  ///< limit of the memory that this process allocates, in MB
