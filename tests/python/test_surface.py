@@ -335,6 +335,20 @@ def test_welded_vertices_keep_their_indices_and_rows(mesh, tmp_path):
     assert tufted.Mesh(torn, torn_faces).report["components"] == len(faces)
 
 
+def test_trees_above_the_ground_are_a_warning(recwarn):
+    random = np.random.default_rng(101)
+    ground = np.column_stack([random.uniform(0, 40, (1600, 2)), random.normal(0, 0.1, 1600)])
+    directions = random.normal(size=(400, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    crowns = 4 * directions * np.cbrt(random.random((400, 1))) + np.array([[10, 10, 9], [30, 30, 9]])[np.arange(400) % 2]
+    for build in (tufted.PointCloud, tufted.denoise):
+        with pytest.warns(tufted.TuftedWarning, match="as vegetation does above the ground"):
+            build(np.vstack([ground, crowns]))
+    recwarn.clear()
+    tufted.PointCloud(ground)
+    assert not recwarn.list
+
+
 def test_sparse_depth_images_are_a_warning():
     points = np.array([((i % 80 - 40) / 50, (i // 80 - 30) / 50, 1) for i in range(4800)])
     points[np.random.default_rng(101).random(4800) < 0.7] = np.nan

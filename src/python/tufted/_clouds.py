@@ -187,7 +187,7 @@ def denoise(points, *, image=None, viewpoint=None, threads=0, progress=None):
         raise InvalidInput("denoise: viewpoint is given, must be None without image")
     *denoised, sentences = _tufted.denoise(points, structure, check.whole(name, "threads", threads, 0),
                                            check.callback(name, progress))
-    for sentence in sentences:
+    for sentence in filter(None, [*sentences, _tufted.hovering_warning(points) if structure is None else ""]):
         warnings.warn(f"denoise: {sentence}", TuftedWarning, stacklevel=2)
     return Denoised(*denoised)
 
