@@ -79,7 +79,7 @@ TEST_F(ChosenPoints, AreAdvisedIfPointsHoverOverTheGround) {
     all.insert(all.end(), {"--where", "z<1"});
     run(all);  // without a warning
   }
-  EXPECT_NE(run({"validate", file, "--json"}).out.find("vegetation"), std::string::npos);
+  EXPECT_NE(runTufted({"validate", file, "--json"}).out.find("vegetation"), std::string::npos);
 }
 
 TEST_F(ChosenPoints, AreThoseThatValidateAndViewTake) {
@@ -95,9 +95,13 @@ TEST_F(ChosenPoints, AreThoseThatValidateAndViewTake) {
   EXPECT_EQ(viewed["points"], 400);
   EXPECT_LT(viewed["kept"], 343);
   EXPECT_EQ(viewed["thin"], 1.0000000001);
+  // Without a field of its own a file is shown by height, and points keep their numbers in the file.
+  const std::string bare = dir_.write("bare.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 1\n");
+  const Result shown = run({"view", bare, "--where", "x<0.5", "--out", in("bare.html")});
+  EXPECT_NE(shown.out.find("fields          z, file_row\n"), std::string::npos) << shown.out;
   const std::string none = dir_.write("none.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 1\n");
   const Result refused = runTufted({"validate", none, all_, "--where", "classification=2"});
-  EXPECT_NE(refused.out.find("REFUSED  " + none), std::string::npos) << refused.out;
+  EXPECT_NE(refused.out.find(none + ": select: where"), std::string::npos) << refused.out;
   EXPECT_NE(refused.out.find("OK"), std::string::npos) << refused.out;
   run({"laplacian", all_, "--out", in("folder")});
   expectRefusal({"view", in("folder"), "--where", "x<1"}, "is a folder of results");

@@ -265,7 +265,11 @@ std::vector<tufted::WholeFile> prepareLook(const tufted::Scene& scene, const Loo
 
 void addPlaceField(const Look& look, tufted::Scene& scene) {
   std::string name = look.color;
-  if (name.empty() && scene.fields.empty()) {
+  const bool is_bare =
+      name.empty() && std::all_of(scene.fields.begin(), scene.fields.end(), [](const SceneField& field) {
+        return field.name == "file_row";  // says nothing about the shape
+      });
+  if (is_bare) {
     int axis = 2;
     const Eigen::Vector3d& up = look.picture.camera.up;
     if (up.norm() > 0) up.cwiseAbs().maxCoeff(&axis);
@@ -274,7 +278,7 @@ void addPlaceField(const Look& look, tufted::Scene& scene) {
   const auto is_named = [&](const SceneField& field) { return field.name == name; };
   if (std::any_of(scene.fields.begin(), scene.fields.end(), is_named)) return;
   SceneField field = placeField(name, scene);
-  if (!field.name.empty()) scene.fields.push_back(std::move(field));
+  if (!field.name.empty()) scene.fields.insert(is_bare ? scene.fields.begin() : scene.fields.end(), std::move(field));
 }
 
 void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry& geometry) {
