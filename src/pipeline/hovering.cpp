@@ -77,7 +77,7 @@ std::string hoveringWarning(const Points& points) {
   if (cloud.size() < least_count) return "";
   std::vector<int> distinct(cloud.input_index.begin(), cloud.input_index.end());
   const double off = static_cast<double>(countOff(some, distinct)) / cloud.size();
-  if (off > most_off) return "";
+  if (off < least_filled || off > most_off) return "";
   const double filled = static_cast<double>(countFilled(cloud)) / cloud.size();
   // Noise fills volumes as well, but stays within the cells.
   if (filled < least_filled || filled > off) return "";
