@@ -15,20 +15,20 @@
 namespace tufted {
 namespace {
 
-constexpr int sample_size = 50000;     ///< points that are looked at, in a tenth of a second
-constexpr int least_count = 1000;      ///< fewer points say too little about a share of a hundredth
-constexpr int k = 30;                  ///< number of neighbours, as in a build
-constexpr std::size_t least_cell = 8;  ///< points in a cell, most of which are on the lower one of two layers
+constexpr int hovering_sample = 50000;  ///< points that are looked at, in a tenth of a second
+constexpr int least_count = 1000;       ///< fewer points say too little about a share of a hundredth
+constexpr int hovering_neighbors = 30;  ///< number of neighbours, as in a build
+constexpr std::size_t least_cell = 8;   ///< points in a cell, most of which are on the lower one of two layers
 
 /// A neighbourhood fills a volume if its smallest variance exceeds this share of the middle one, as in the build's
 /// warning of thick neighbourhoods, and if fewer than the second share of the neighbours are within half the distance
 /// of the last one. That share is 1/4 on a surface and 1/8 in a volume, and this is the geometric mean.
-constexpr double thick_share = 0.5, filled_share = 0.177;
+constexpr double least_thickness = 0.5, filled_share = 0.177;
 /// Below this share of such neighbourhoods there is no warning: at most 0.006 on nine scans from one side without
 /// trees, 0.013 to 0.07 on three airborne scans with trees.
 constexpr double least_filled = 0.01;
 /// If more points than this are off the middle of their cell, the cloud is not seen from above: at most 0.15 on scans
-/// from one side, at least 0.3 on bodies from all sides.
+/// from one side, at least 0.29 on bodies from all sides.
 constexpr double most_off = 0.25;
 
 /// Counts the points that are higher or lower than the middle one of their cell by more than the width of the cell.
@@ -56,13 +56,13 @@ std::ptrdiff_t countFilled(const RankedCloud& cloud) {
   Buffer<Neighbor> found;
   std::ptrdiff_t count = 0;
   for (int p = 0; p < cloud.size(); ++p) {
-    search.nearest(p, k, found);
-    const double quarter = found[k - 1].squared_distance / 4;
+    search.nearest(p, hovering_neighbors, found);
+    const double quarter = found[hovering_neighbors - 1].squared_distance / 4;
     const auto inner = std::count_if(found.begin(), found.end(),
                                      [&](const Neighbor& neighbor) { return neighbor.squared_distance < quarter; });
-    if (static_cast<double>(inner) > filled_share * (k - 1)) continue;
+    if (static_cast<double>(inner) > filled_share * (hovering_neighbors - 1)) continue;
     const PrincipalAxes axes = principalAxes(cloud.points, p, found);
-    count += axes.variance[0] > thick_share * axes.variance[1] && !liesOnOneLine(axes) ? 1 : 0;
+    count += axes.variance[0] > least_thickness * axes.variance[1] && !liesOnOneLine(axes) ? 1 : 0;
   }
   return count;
 }
@@ -70,7 +70,7 @@ std::ptrdiff_t countFilled(const RankedCloud& cloud) {
 }  // namespace
 
 std::string hoveringWarning(const Points& points) {
-  const Points some = points(sampleRegions(points, sample_size), Eigen::all);
+  const Points some = points(sampleRegions(points, hovering_sample), Eigen::all);
   std::vector<PointStatus> status;
   std::vector<int> representative;
   const RankedCloud cloud = rankPoints(some, status, representative);
