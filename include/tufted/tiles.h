@@ -35,8 +35,8 @@ struct TileRows {
   std::vector<double> value;                 ///< entries of L
 };
 
-/// The processes that build the tiles of one cloud, each its own ones. All of them call laplacianByTiles() with the same
-/// source and options.
+/// The processes that build the tiles of one cloud, each its own ones. All of them call laplacianByTiles() with the
+/// same source and options.
 struct TileProcesses {
   int number = 0;  ///< number of this process, from 0
   int count = 1;   ///< number of processes

@@ -92,6 +92,9 @@ PetscVector harmonic(const DistributedLaplacian& laplacian, const std::vector<Pe
   PetscInt first = 0, size = 0;
   check(VecGetSize(laplacian.M.get(), &size));
   check(VecGetOwnershipRange(laplacian.M.get(), &first, nullptr));
+  if (values.size() != rows.size())
+    throw InvalidInput("harmonic: " + std::to_string(values.size()) + " values, must be " +
+                       std::to_string(rows.size()) + ", one per row");
   for (const PetscInt row : rows)
     if (row < 0 || row >= size)
       throw InvalidInput("harmonic: row " + std::to_string(row) + ", must be in [0, " + std::to_string(size) + ")");

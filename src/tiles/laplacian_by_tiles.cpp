@@ -38,8 +38,8 @@ void checkOptions(const TileOptions& options) {
     refuse("memory = " + numberText(options.memory) + " bytes, must be more than " + numberText(fixed_bytes));
   const TileProcesses& processes = options.processes;
   if (!(0 <= processes.number && processes.number < processes.count))
-    refuse("processes.number = " + std::to_string(processes.number) + ", must be in [0, processes.count = " +
-           std::to_string(processes.count) + ")");
+    refuse("processes.number = " + std::to_string(processes.number) +
+           ", must be in [0, processes.count = " + std::to_string(processes.count) + ")");
   if (processes.count > 1 && !processes.share) refuse("processes.share is empty, must be set for several processes");
   if (cloud.normals != nullptr || cloud.neighborhoods != nullptr || cloud.structure != nullptr ||
       cloud.viewpoint != nullptr)

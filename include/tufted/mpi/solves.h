@@ -6,6 +6,9 @@
 
 #include "tufted/mpi/distributed_laplacian.h"
 
+// A mistake that one process alone makes, such as a row out of range, throws in that process alone, while others wait:
+// end all with MPI_Abort() then.
+
 namespace tufted {
 
 /// How systems or eigenpairs of a DistributedLaplacian were solved.
@@ -26,7 +29,8 @@ PetscVector poisson(const DistributedLaplacian& laplacian, Vec f, DistributedSol
 /// conjugate gradients with hypre's algebraic multigrid. Collective.
 /// @param rows rows of L with a given value, from any process, each once
 /// @param values one per entry of `rows`
-/// @throws InvalidInput if no process gives a value, for rows out of range, and for values that are not finite
+/// @throws InvalidInput if no process gives a value, for rows out of range, and for values that are not finite or not
+/// as many as rows
 /// @throws SolverFailure if the residual ends above 1e-8
 PetscVector harmonic(const DistributedLaplacian& laplacian, const std::vector<PetscInt>& rows,
                      const std::vector<double>& values, DistributedSolve* report = nullptr);
