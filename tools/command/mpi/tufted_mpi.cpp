@@ -33,7 +33,7 @@ constexpr const char* footer =
   mpirun -n 4 tufted-mpi poisson survey.las --coordinate z --out solution -ksp_monitor
   srun tufted-mpi laplacian survey.las --memory 8G --out matrices
 
-No process holds all points: each reads the file in passes, keeps the points in a file without a name in DIR, and
+No process holds all points: each reads the file in passes, keeps the points in a file without a name beside DIR or in it, and
 builds its own part of L, with the preset `clean`, which does not move noisy points.
 
 Words such as -ksp_type and -eps_tol, with a single dash, are options of PETSc and SLEPc; give them behind FILE. All
@@ -66,6 +66,13 @@ int processNumber() {
 void inProcess0(const std::function<void()>& work) {
   if (processNumber() == 0) work();
   MPI_Barrier(PETSC_COMM_WORLD);
+}
+
+/// A folder, or the nearest one above it that exists.
+std::filesystem::path existingFolder(const std::filesystem::path& folder) {
+  std::filesystem::path existing = std::filesystem::absolute(folder);
+  while (!std::filesystem::is_directory(existing) && existing.has_relative_path()) existing = existing.parent_path();
+  return existing;
 }
 
 /// One coordinate of each point, by row.
@@ -238,9 +245,8 @@ class CommandLine {
       tufted::sourceOf(settings_.file, settings_.as);
       tufted::checkWritable(settings_.out);
     });
-    MPI_Barrier(PETSC_COMM_WORLD);
     const tufted::FileSource source = tufted::sourceOf(settings_.file, settings_.as);
-    settings_.tiles.folder = settings_.out;
+    settings_.tiles.folder = existingFolder(settings_.out);
     const auto laplacian = tufted::distributedLaplacian(PETSC_COMM_WORLD, source, settings_.tiles);
     compute_(laplacian, source);
     auto report = reportOf(settings_, laplacian.report);
@@ -249,9 +255,9 @@ class CommandLine {
     tufted::writeDistributed(settings_.out, laplacian, result_);
     warnUnused();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    PetscPrintf(PETSC_COMM_WORLD, "points      %lld, %lld take part, %d components\narea        %.10g, the sum of M\n",
+    PetscPrintf(PETSC_COMM_WORLD, "points      %lld, %lld take part, %s\narea        %.10g, the sum of M\n",
                 static_cast<long long>(laplacian.report.points), static_cast<long long>(laplacian.report.active),
-                static_cast<int>(laplacian.components), laplacian.report.area);
+                countText(laplacian.components, "component").c_str(), laplacian.report.area);
     if (report_.contains("iterations"))
       PetscPrintf(PETSC_COMM_WORLD, "solved      in %d iterations, residual %.2g\n", report_["iterations"].get<int>(),
                   report_["residual"].get<double>());
