@@ -80,7 +80,7 @@ TEST_F(TuftedMpi, MistakesAreRefusedWithOneMessageAndNoResult) {
     EXPECT_EQ(result.err.find("tufted-mpi: ", 1), std::string::npos) << result.err;
     EXPECT_FALSE(fs::exists(dir_ / "out/report.json"));
   };
-  expectRefused({"spectrum", in("missing.xyz")}, 1, in("missing.xyz") + ": cannot ");
+  expectRefused({"spectrum", in("missing.xyz")}, 1, in("missing.xyz") + ": no such file");
   expectRefused({"spectrum", cloud_, "--cont", "3"}, 2, "The following argument");
   expectRefused({"poisson", cloud_}, 2, "");
   expectRefused({"spectrum", cloud_, "--memory", "much"}, 2, "--memory: much is not a size");

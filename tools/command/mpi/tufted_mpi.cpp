@@ -353,7 +353,7 @@ class CommandLine {
   Compute compute_;
   std::vector<tufted::PetscVector> kept_;  ///< vectors of the result
   tufted::DistributedResult result_;
-  nlohmann::ordered_json report_;
+  nlohmann::ordered_json report_ = nlohmann::ordered_json::object();
 };
 
 /// Prints a message and ends all processes.
