@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs what tufted needs, on Debian 12 and Ubuntu 22.04 and 24.04. Does nothing, and asks for no rights, where all of
-# it is there already. Without options it installs what all parts and the benchmark need, otherwise what these need:
+# it is there already. Without options it installs what all parts but --mpi and the benchmark need, otherwise what these need:
 #   --command  the command `tufted` and the library alone
 #   --pcl      the classes for PCL as well; PCL brings Qt and VTK
 #   --python   the package for Python as well
+#   --mpi      tufted::mpi and the program tufted-mpi as well: PETSc, SLEPc and Open MPI
 #   --tests    everything, and what the checks of tools/test.sh need: clang with its sanitizers, clang-format, doxygen,
 #              pytest, and a browser where it is a package (on Ubuntu it is none, and the tests of pages in a browser skip
 #              themselves)
@@ -23,6 +24,7 @@ command_packages=(
 )
 pcl_packages=(libpcl-dev)
 python_packages=(python3 python3-dev pybind11-dev python3-numpy python3-scipy python3-pip python3-venv)
+mpi_packages=(libslepc-real-dev openmpi-bin)
 other_packages=(
   help2man  # the manual pages of the command
   libgtest-dev libgmock-dev libzip-dev libspectra-dev libbenchmark-dev  # tests and benchmark
@@ -37,13 +39,15 @@ for part in "$@"; do
     --command) ;;
     --pcl) packages+=("${pcl_packages[@]}") ;;
     --python) packages+=("${python_packages[@]}") ;;
+    --mpi) packages+=("${mpi_packages[@]}") ;;
     --tests | --all)
       sanitizers=true
-      packages+=("${pcl_packages[@]}" "${python_packages[@]}" "${other_packages[@]}" "${check_packages[@]}")
+      packages+=("${pcl_packages[@]}" "${python_packages[@]}" "${mpi_packages[@]}" "${other_packages[@]}"
+                 "${check_packages[@]}")
       [[ $part == --tests ]] || packages+=(clang-tidy)
       ;;
     *)
-      echo "usage: tools/install_dependencies.sh [--command] [--pcl] [--python] [--tests | --all]" >&2
+      echo "usage: tools/install_dependencies.sh [--command] [--pcl] [--python] [--mpi] [--tests | --all]" >&2
       exit 2
       ;;
   esac

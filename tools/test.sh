@@ -82,9 +82,9 @@ tests() {
   echo "$name: $((total - bad - odd)) passed, $bad failed, $odd skipped ($((SECONDS - seconds)) s)"
 }
 
-# preset NAME: configures, builds and tests one of CMakePresets.json.
+# preset NAME ARGUMENTS...: configures, builds and tests one of CMakePresets.json.
 preset() {
-  step "$1: configure" cmake --preset "$1" "${configure_arguments[@]}" &&
+  step "$1: configure" cmake --preset "$1" "${configure_arguments[@]}" "${@:2}" &&
     step "$1: build" build "$1" &&
     tests "$1: tests" --preset "$1"
 }
@@ -112,7 +112,11 @@ formatted() {
 if [[ $extent != quick ]]; then
   step "format" formatted || true
 fi
-preset release || true
+if [[ $extent == quick ]]; then
+  preset release || true
+else
+  preset release -DTUFTED_WITH_PETSC=ON || true  # which is off by default
+fi
 if [[ $extent != quick ]]; then
   step "reference of the headers" cmake --build build/release --target docs || true
   consumer installed build/release -DCONSUMER_IO=ON -DCONSUMER_PCL=ON || true

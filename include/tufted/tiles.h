@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "tufted/options.h"
@@ -34,17 +35,28 @@ struct TileRows {
   std::vector<double> value;                 ///< entries of L
 };
 
+/// The processes that build the tiles of one cloud, each its own ones. All of them call laplacianByTiles() with the
+/// same source and options.
+struct TileProcesses {
+  int number = 0;  ///< number of this process, from 0
+  int count = 1;   ///< number of processes
+  /// Gives every process the pairs of all, in any order. Called by each process equally often.
+  std::function<std::vector<std::pair<int, int>>(const std::vector<std::pair<int, int>>& pairs)> share = {};
+};
+
 /// Options of laplacianByTiles().
 struct TileOptions {
   CloudOptions cloud =
       {};  ///< how rows are built; only `neighbors`, `steps`, `mollify`, `threads` and `progress` may be set
   double memory = 4e9;  ///< bytes that may be taken beside what the source takes; tiles get smaller with it
-  int tiles = 0;        ///< number of tiles; 0: as few as fit in memory
+  int tiles = 0;        ///< number of tiles; 0: as few as fit in memory. At least one per process
   std::filesystem::path folder = ".";  ///< a folder with room for 32 bytes per point, in a file without a name
   Progress progress = {};              ///< called for every batch of points that is read, and before every build
+  TileProcesses processes = {};        ///< the process that calls, and the others; by default it is the only one
 };
 
-/// What laplacianByTiles() did.
+/// What laplacianByTiles() did. Of several processes, the counts of rows, of entries and of builds, and the area, are
+/// those of this one.
 struct TileReport {
   std::int64_t points = 0;       ///< number of points
   std::int64_t active = 0;       ///< points that take part
@@ -70,7 +82,7 @@ struct TileReport {
 /// given for points that are not finite
 /// @throws InvalidInput for options out of range, `cloud` with normals, neighborhoods, a structure or a viewpoint, with
 /// denoise, or with options of the paper that need a whole cover; if what the rows of one cell depend on does not fit
-/// in memory
+/// in memory. It may be thrown in one process alone, while the others wait in `share`
 /// @throws IoError if the file in `folder` cannot be written
 /// @throws Cancelled when `progress` returns false
 TileReport laplacianByTiles(const PointSource& source, const TileOptions& options,

@@ -11,6 +11,7 @@
 #include "io/frames_file.h"
 #include "io/las_writer.h"
 #include "io/mat.h"
+#include "io/matrix_petsc.h"
 #include "io/matrix_text.h"
 #include "io/npy.h"
 #include "io/npz.h"
@@ -100,6 +101,8 @@ const ResultFile result_files[] = {
      }},
     {Format::spmat, "L.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.matrix()); }},
     {Format::spmat, "M.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.masses()); }},
+    {Format::petsc, "L.petsc", [](const OutputPath& to, const Results& r) { io::writePetsc(to, r.matrices.matrix()); }},
+    {Format::petsc, "M.petsc", [](const OutputPath& to, const Results& r) { io::writePetsc(to, r.matrices.masses()); }},
     {Format::ply, "points.ply",
      [](const OutputPath& to, const Results& r) {
        io::writePly(to, r.laplacian, r.geometry, r.matrices.masses(), r.conventions);

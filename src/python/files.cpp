@@ -22,10 +22,11 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-const std::map<std::string, Format> formats = {
-    {"npz", Format::npz},     {"mtx", Format::mtx},     {"mat", Format::mat},
-    {"spmat", Format::spmat}, {"ply", Format::ply},     {"pcd", Format::pcd},
-    {"las", Format::las},     {"cover", Format::cover}, {"triangles", Format::triangles}};
+const std::map<std::string, Format> formats = {{"npz", Format::npz},     {"mtx", Format::mtx},
+                                               {"mat", Format::mat},     {"spmat", Format::spmat},
+                                               {"petsc", Format::petsc}, {"ply", Format::ply},
+                                               {"pcd", Format::pcd},     {"las", Format::las},
+                                               {"cover", Format::cover}, {"triangles", Format::triangles}};
 
 const char* typeOf(FieldType type) {
   constexpr const char* names[] = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"};

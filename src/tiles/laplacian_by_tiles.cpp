@@ -36,6 +36,11 @@ void checkOptions(const TileOptions& options) {
   if (options.tiles < 0) refuse("tiles = " + std::to_string(options.tiles) + ", must be >= 0");
   if (!(options.memory > fixed_bytes))
     refuse("memory = " + numberText(options.memory) + " bytes, must be more than " + numberText(fixed_bytes));
+  const TileProcesses& processes = options.processes;
+  if (!(0 <= processes.number && processes.number < processes.count))
+    refuse("processes.number = " + std::to_string(processes.number) +
+           ", must be in [0, processes.count = " + std::to_string(processes.count) + ")");
+  if (processes.count > 1 && !processes.share) refuse("processes.share is empty, must be set for several processes");
   if (cloud.normals != nullptr || cloud.neighborhoods != nullptr || cloud.structure != nullptr ||
       cloud.viewpoint != nullptr)
     refuse("normals, neighborhoods, structure and viewpoint must be null");
@@ -83,20 +88,31 @@ class TileBuilds {
     most_points_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(most));
     const double own = static_cast<double>(most_points_) * (all <= most_points_ ? 1 : own_share);
     const auto fitting = static_cast<std::int64_t>(std::ceil(static_cast<double>(all) / own));
-    ends_ = planTiles(points.cells(), std::max<std::int64_t>(1, options.tiles > 0 ? options.tiles : fitting));
+    const std::int64_t tiles = options.tiles > 0 ? options.tiles : fitting;
+    ends_ = planTiles(points.cells(), std::max<std::int64_t>(options.processes.count, tiles));
   }
 
   TileReport buildAll() {
-    for (std::size_t number = 0; number < ends_.size(); ++number) {
-      share_ = static_cast<double>(number) / static_cast<double>(ends_.size());
+    const auto firstOf = [&](int process) { return ends_.size() * process / options_.processes.count; };
+    const std::size_t first = firstOf(options_.processes.number), last = firstOf(options_.processes.number + 1);
+    for (std::size_t number = first; number < last; ++number) {
+      share_ = static_cast<double>(number - first) / static_cast<double>(last - first);
       TileTask task;
       for (int cell = number == 0 ? 0 : ends_[number - 1]; cell < ends_[number]; ++cell) task.own.push_back(cell);
       build(std::move(task));
     }
     share_ = 1;
-    // A star far away, such as that of an outlier, may have triangles with points of a tile that cannot know that.
-    while (requireMore()) {
-    }
+    // A star far away, such as that of an outlier, may have triangles with points of a tile that cannot know that. All
+    // processes end once none of them has found more such stars.
+    std::vector<std::pair<int, int>> shared, before;
+    do {
+      before = std::move(shared);
+      if (options_.processes.share) far_pairs_ = options_.processes.share(far_pairs_);
+      sortUnique(far_pairs_);
+      shared = far_pairs_;
+      while (requireMore()) {
+      }
+    } while (shared != before);
     return report();
   }
 
@@ -208,7 +224,7 @@ class TileBuilds {
   double share_ = 0;  ///< of the tiles that are built
   std::vector<int> ends_;
   std::vector<Built> built_;
-  std::vector<std::pair<int, int>> far_pairs_;  ///< see Tile::farPairs(), of all tiles
+  std::vector<std::pair<int, int>> far_pairs_;  ///< see Tile::farPairs(), of all tiles known here
 };
 
 }  // namespace

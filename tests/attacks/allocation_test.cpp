@@ -159,8 +159,8 @@ TEST(Allocation, ReadingAndWritingFailCleanly) {
   geometry.is_mesh = true;
   geometry.triangles = mesh.triangles;
   const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles, {.threads = 1});
-  const WriteOptions options = {
-      .formats = {Format::npz, Format::mtx, Format::spmat, Format::ply, Format::pcd, Format::cover, Format::triangles}};
+  const WriteOptions options = {.formats = {Format::npz, Format::mtx, Format::spmat, Format::petsc, Format::ply,
+                                            Format::pcd, Format::cover, Format::triangles}};
   const auto write = [&] { writeLaplacian(dir.path(), laplacian, geometry, options); };
   failEach("write", write, 1, 0, larger_than_json);
   for (const fs::directory_entry& entry : fs::directory_iterator(dir.path()))

@@ -288,7 +288,8 @@ TEST_F(Command, HelpStatesSignScaleAndFiles) {
                            "meshes: 1/2 (front and back of the cover)", "--normals"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   for (const char* name : outputs) EXPECT_NE(result.out.find(name), std::string::npos) << name;
-  for (const char* name : {"L.mtx", "M.mtx", "laplacian.mat", "L.spmat", "M.spmat", "points.pcd", "--sign igl"})
+  for (const char* name :
+       {"L.mtx", "M.mtx", "laplacian.mat", "L.spmat", "M.spmat", "L.petsc", "M.petsc", "points.pcd", "--sign igl"})
     EXPECT_NE(result.out.find(name), std::string::npos) << name;
   const Result overview = runTufted({"--help"});
   EXPECT_EQ(overview.code, 0);

@@ -207,8 +207,7 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewWhicheverStepFailsOrIsInterrupted
       }
       const bool is_survived = call == "linkat" && fault == "error=EIO";  // then old files are renamed instead
       // The first mkdir() is before the build; a commit that has begun is not cancelled.
-      EXPECT_EQ(ended == 0, is_survived || (call != "mkdir" && fault == "signal=SIGTERM"))
-          << call << ' ' << fault;
+      EXPECT_EQ(ended == 0, is_survived || (call != "mkdir" && fault == "signal=SIGTERM")) << call << ' ' << fault;
     }
   }
 }

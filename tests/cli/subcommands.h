@@ -14,7 +14,7 @@
 
 /// A call of every subcommand that needs nothing but a cloud, without FILE and --out.
 inline const std::vector<std::vector<std::string>> commands = {
-    {"laplacian", "--format", "npz,ply,pcd,mtx,mat,spmat,cover,triangles"},
+    {"laplacian", "--format", "npz,ply,pcd,mtx,mat,spmat,petsc,cover,triangles"},
     {"spectrum", "--count", "3"},
     {"hks", "--count", "3"},
     {"hks", "--count", "3", "--wave", "--format", "pcd"},

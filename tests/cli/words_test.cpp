@@ -97,7 +97,7 @@ TEST_F(Words, AMisspeltValueIsNamedWithTheNearest) {
   expectValue("--gluing", "tape", "is none of star|vertex-pair");
   expectValue("--as", "clod", "is none of cloud|mesh; did you mean `cloud`?");
   expectValue("--format", "spmta",
-              "is none of cover|las|mat|mtx|npz|pcd|ply|spmat|triangles|none; did you mean `spmat`?");
+              "is none of cover|las|mat|mtx|npz|pcd|petsc|ply|spmat|triangles|none; did you mean `spmat`?");
   expectSaid(
       {"embed", cloud_, "--out", in("out"), "--distance", "biharmonc"},
       "--distance: biharmonc is none of biharmonic|commute; did you mean `biharmonic`? (see tufted embed --help)");

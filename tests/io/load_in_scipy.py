@@ -38,6 +38,19 @@ def spmat(file):
     return scipy.sparse.coo_matrix((values, (rows.astype(int) - 1, columns.astype(int) - 1)))
 
 
+def petsc(file):
+    """A matrix or a vector as PETSc's bin/PetscBinaryIO.py reads it."""
+    with open(file, "rb") as stream:
+        mark, rows = np.fromfile(stream, ">i4", 2)
+        if mark == 1211214:
+            return np.fromfile(stream, ">f8").astype(float)
+        columns, entries = np.fromfile(stream, ">i4", 2)
+        assert mark == 1211216
+        indptr = np.concatenate([[0], np.cumsum(np.fromfile(stream, ">i4", rows))])
+        indices, data = np.fromfile(stream, ">i4", entries), np.fromfile(stream, ">f8")
+    return scipy.sparse.csr_matrix((data.astype(float), indices, indptr), (rows, columns))
+
+
 def load(folder):
     """L and the values per point, from npz and npy; all other files must hold the same."""
     L = scipy.sparse.load_npz(path(folder, "L.npz"))
@@ -66,6 +79,9 @@ def load(folder):
     assert same_matrix(triplets, L)
     masses = spmat(path(folder, "M.spmat")).tocsc()
     assert masses.shape == L.shape and same_bits(masses.diagonal(), values["M"])
+
+    assert same_matrix(petsc(path(folder, "L.petsc")), L)
+    assert same_bits(petsc(path(folder, "M.petsc")), values["M"])
 
     with open(path(folder, "report.json")) as file:
         report = json.load(file)

@@ -36,8 +36,8 @@ class ResultFolder : public LaplacianFolder {
 };
 
 TEST_F(ResultFolder, EveryReportListsTheFilesThatAreWritten) {
-  for (const Format format : {Format::npz, Format::mtx, Format::mat, Format::spmat, Format::ply, Format::pcd,
-                              Format::cover, Format::triangles}) {
+  for (const Format format : {Format::npz, Format::mtx, Format::mat, Format::spmat, Format::petsc, Format::ply,
+                              Format::pcd, Format::cover, Format::triangles}) {
     const std::string name = "format" + std::to_string(static_cast<int>(format));
     tufted::writeLaplacian(dir_ / name, laplacian_, geometry_, {.formats = {format}});
     EXPECT_EQ(listed(name), onDisk(name));

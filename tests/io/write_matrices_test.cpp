@@ -107,11 +107,12 @@ TEST(ResultFiles, AreThoseThatAreWrittenWhateverTheFormats) {
       {Format::mtx},
       {Format::mat},
       {Format::spmat},
+      {Format::petsc},
       {Format::ply},
       {Format::pcd},
       {Format::cover},
       {Format::pcd, Format::mtx, Format::pcd},
-      {Format::npz, Format::mtx, Format::mat, Format::spmat, Format::ply, Format::pcd}};
+      {Format::npz, Format::mtx, Format::mat, Format::spmat, Format::petsc, Format::ply, Format::pcd}};
   tufted::Laplacian laplacian = sampleLaplacian();
   tufted::IntrinsicTriangulation cover;
   cover.vertices = 4;
@@ -139,7 +140,7 @@ TEST(WriteLaplacian, NoPointsAreWrittenInEveryFormat) {
   tufted::Laplacian none;
   EXPECT_NO_THROW(tufted::writeLaplacian(
       dir / "out", none, {},
-      {.formats = {Format::npz, Format::mtx, Format::mat, Format::spmat, Format::ply, Format::pcd}}));
+      {.formats = {Format::npz, Format::mtx, Format::mat, Format::spmat, Format::petsc, Format::ply, Format::pcd}}));
   EXPECT_EQ(readAll(dir / "out/L.spmat"), "");
   EXPECT_TRUE(readAll(dir / "out/L.mtx").ends_with("\n0 0 0\n"));
 }

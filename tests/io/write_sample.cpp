@@ -37,7 +37,8 @@ void dump(const std::filesystem::path& path, const T* values, std::size_t count)
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const std::filesystem::path dir = argv[1];
-  const std::vector<Format> all = {Format::npz, Format::mtx, Format::mat, Format::spmat, Format::ply, Format::pcd};
+  const std::vector<Format> all = {Format::npz,   Format::mtx, Format::mat, Format::spmat,
+                                   Format::petsc, Format::ply, Format::pcd};
   tufted::writeLaplacian(dir / "triangle", sampleLaplacian(), sampleGeometry(), {.formats = all});
   const tufted::Geometry geometry = cloud();
   const tufted::Laplacian laplacian = tufted::pointCloudLaplacian(geometry.points);

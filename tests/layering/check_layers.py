@@ -4,7 +4,7 @@
     rooms of src/ know those that ROOMS says, which lie before them; cover/, which is the paper, knows base/ only
     io knows public headers only; python those of io and view as well; tools know public headers and the fixtures of the tests,
     the benchmark (tools/bench) also the rooms that it measures
-    public headers know Eigen and the standard library only (those in tufted/pcl also PCL)
+    public headers know Eigen and the standard library only (those in tufted/pcl also PCL, in tufted/mpi also PETSc)
     nothing in the library writes to a stream
     no two headers of the library define a type of one name, which would break the one-definition rule
 """
@@ -29,9 +29,11 @@ ROOMS = {
     "algorithms": ["base", "simd", "cover", "neighbors", "stars", "operators"],
     "view": [],
     "pcl": [],
+    "mpi": ["base", "io"],
     "python": [],
 }
 FIXTURES = ["shapes", "oracles", "guarantees"]  # folders of tests/ that tools for developers may use
+FOREIGN = {"pcl": "pcl/", "mpi": "petsc"}  # what public headers of a part may include besides
 SUFFIXES = {".h", ".hpp", ".cpp"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
@@ -46,9 +48,9 @@ TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?: :[^;]*)? \{
 
 
 def part_of(name):
-    """Where a public header belongs: "core", "io", "view" or "pcl"."""
+    """Where a public header belongs: "core", "io", "mpi", "view" or "pcl"."""
     parts = name.split("/")
-    return parts[1] if len(parts) > 2 and parts[1] in ("io", "pcl", "view") else "core"
+    return parts[1] if len(parts) > 2 and parts[1] in ("io", "mpi", "pcl", "view") else "core"
 
 
 def is_standard(name):
@@ -59,11 +61,11 @@ def is_standard(name):
 def public_fault(header, name):
     own, other = part_of(header), part_of(name)
     if name.startswith("tufted/"):
-        visible = {"core": ["core"], "io": ["core", "io"], "pcl": ["core", "pcl"], "view": ["core", "view"]}[own]
+        visible = ["core", own]
         return None if other in visible else f"{own} headers may not include {name}"
     if name == "iostream":
         return "public headers do not include <iostream>"
-    if is_standard(name) or name.startswith("Eigen/") or (own == "pcl" and name.startswith("pcl/")):
+    if is_standard(name) or name.startswith("Eigen/") or name.startswith(FOREIGN.get(own, "Eigen/")):
         return None
     return f"public headers do not include {name}"
 
@@ -71,7 +73,7 @@ def public_fault(header, name):
 def source_fault(room, name, quoted):
     if name.startswith("tufted/"):
         other = part_of(name)
-        visible = ["core", "io", "view"] if room == "python" else ["core", room]
+        visible = {"python": ["core", "io", "view"], "mpi": ["core", "io", "mpi"]}.get(room, ["core", room])
         return None if other in visible else f"{room} may not include {name}"
     if name == "iostream":
         return "the library does not include <iostream>"
@@ -80,7 +82,7 @@ def source_fault(room, name, quoted):
     other = name.split("/")[0]
     if room == "io":
         return None if other == "io" else f"io may include public headers and its own only, not {name}"
-    if other not in ROOMS:
+    if other not in [*ROOMS, "io"]:
         return f"{name} is in no room"
     return None if other in (room, *ROOMS[room]) else f"{room} may not include {name}"
 

@@ -173,7 +173,7 @@ def without_times(path):
     return report
 
 
-EVERY_FORMAT = "npz,mtx,mat,spmat,ply,pcd,cover,triangles"
+EVERY_FORMAT = "npz,mtx,mat,spmat,petsc,ply,pcd,cover,triangles"
 
 
 @pytest.mark.parametrize("name, words, options, written", [
@@ -197,7 +197,7 @@ def test_save_writes_the_files_of_the_command(name, words, options, written, tmp
     surface = tufted.read(DATASETS / name, **options)
     surface.save(ours, formats=EVERY_FORMAT.split(","), **written)
     names = sorted(path.name for path in commands.iterdir())
-    assert sorted(path.name for path in ours.iterdir()) == names and len(names) == 20
+    assert sorted(path.name for path in ours.iterdir()) == names and len(names) == 22
     for file in names:
         if file == "report.json":
             assert without_times(ours / file) == without_times(commands / file)

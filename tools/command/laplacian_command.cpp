@@ -99,6 +99,8 @@ Files in DIR, which replace older ones when all are complete; other files in DIR
   laplacian.mat       MATLAB: L, M, status, representative, boundary, conventions
   --format spmat
   L.spmat, M.spmat    a line `row column value` per entry, counted from 1; M is a diagonal matrix
+  --format petsc
+  L.petsc, M.petsc    for MatLoad and VecLoad of PETSc, with 32-bit indices
   --format ply
   points.ply          the points with the fields mass, boundary, status and representative
   --format pcd
@@ -135,15 +137,18 @@ struct Settings {
 };
 
 const std::map<std::string, tufted::Format> formats = {
-    {"npz", tufted::Format::npz},     {"mtx", tufted::Format::mtx},     {"mat", tufted::Format::mat},
-    {"spmat", tufted::Format::spmat}, {"ply", tufted::Format::ply},     {"pcd", tufted::Format::pcd},
-    {"las", tufted::Format::las},     {"cover", tufted::Format::cover}, {"triangles", tufted::Format::triangles}};
+    {"npz", tufted::Format::npz},     {"mtx", tufted::Format::mtx},
+    {"mat", tufted::Format::mat},     {"spmat", tufted::Format::spmat},
+    {"petsc", tufted::Format::petsc}, {"ply", tufted::Format::ply},
+    {"pcd", tufted::Format::pcd},     {"las", tufted::Format::las},
+    {"cover", tufted::Format::cover}, {"triangles", tufted::Format::triangles}};
 const std::map<std::string, tufted::Sign> signs = {{"psd", tufted::Sign::psd}, {"igl", tufted::Sign::igl}};
 
 /// Adds the options that say what is written, and how.
 void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
-  addFormats(command, options.formats, formats,
-             "Formats, separated by commas: npz, mtx, mat, spmat, ply, pcd, las, cover, triangles, or none (npz,ply)");
+  addFormats(
+      command, options.formats, formats,
+      "Formats, separated by commas: npz, mtx, mat, spmat, petsc, ply, pcd, las, cover, triangles, or none (npz,ply)");
   addChoice(command, "--sign", options.sign, signs,
             "Sign of L in the files: positive semidefinite (psd) or negative semidefinite as in libigl (psd)");
   command.add_flag("--dummy", options.dummy, "Give points that take no part a nonzero diagonal in L and M, see below");

@@ -17,6 +17,7 @@ enum class Format : std::uint8_t {
   mtx,    ///< L.mtx, M.mtx: Matrix Market
   mat,    ///< laplacian.mat: MATLAB 5, at most 2^31 - 1 bytes per variable
   spmat,  ///< L.spmat, M.spmat: triplets counted from 1, as the paper's program writes them
+  petsc,  ///< L.petsc, M.petsc: PETSc's binary files of a matrix and a vector
   ply,    ///< points.ply
   pcd,    ///< points.pcd
   las,    ///< points.las
@@ -67,6 +68,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   L.spmat             a line `row column value` per entry, and the last diagonal entry even if 0, so that MATLAB's
 ///                       spconvert(load(...)) has the right size
 ///   M.spmat             the diagonal matrix of the N masses, in the same way
+///   L.petsc, M.petsc    for PETSc's MatLoad() and VecLoad(), with 32-bit indices
 ///   points.ply          the points, little endian; the triangles of a mesh
 ///   points.pcd          the points, binary
 ///   points.las          the points, LAS 1.4

@@ -177,7 +177,7 @@ class Surface(Spectral, Distances, Equations, Shape, Figures):
         """Writes the files that `tufted laplacian` writes with the same options, all of them or none.
 
         directory: created if missing.
-        formats: of npz, mtx, mat, spmat, ply, pcd, las, cover, triangles; None: npz and ply or, after load(), the
+        formats: of npz, mtx, mat, spmat, petsc, ply, pcd, las, cover, triangles; None: npz and ply or, after load(), the
         formats loaded. Only with "cover" can distances and paths be computed after load().
         sign: of L in the files: "psd", positive semidefinite as here, or "igl", negated.
         dummy: whether points that take no part get values on the diagonals of L and M, for programs that expect full

@@ -1,0 +1,129 @@
+#include "tufted/mpi/solves.h"
+
+#include <petscksp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/number_text.h"
+#include "mpi/petsc.h"
+#include "mpi/point_values.h"
+#include "mpi/rows.h"
+
+namespace tufted {
+namespace {
+
+using LinearSolver = PetscHandle<KSP, KSPDestroy>;
+
+/// Greatest relative residual of a system that counts as solved.
+constexpr double most_residual = 1e-8;
+
+/// Subtracts the mean of each component, weighted by M.
+void subtractMeans(const DistributedLaplacian& laplacian, Vec vector) {
+  const std::vector<double> areas = localOf(laplacian.M.get());
+  std::vector<double> values = localOf(vector), products(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) products[i] = areas[i] * values[i];
+  const std::vector<double> all_areas = sumsOf(laplacian, areas), sums = sumsOf(laplacian, products);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const PetscInt c = laplacian.component[i];
+    if (all_areas[c] > 0) values[i] -= sums[c] / all_areas[c];
+  }
+  setLocal(vector, values);
+}
+
+/// Solves A u = b and checks the residual.
+void solve(const char* function, Mat A, Mat preconditioned, Vec b, Vec u, DistributedSolve* report) {
+  MPI_Comm comm = MPI_COMM_NULL;
+  check(PetscObjectGetComm(reinterpret_cast<PetscObject>(A), &comm));
+  LinearSolver solver;
+  check(KSPCreate(comm, solver.make()));
+  check(KSPSetOperators(solver.get(), A, preconditioned));
+  check(KSPSetType(solver.get(), KSPCG));
+  check(KSPSetNormType(solver.get(), KSP_NORM_UNPRECONDITIONED));
+  check(KSPSetTolerances(solver.get(), 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 500));
+  PC preconditioner = nullptr;
+  check(KSPGetPC(solver.get(), &preconditioner));
+  check(PCSetType(preconditioner, PCHYPRE));
+  check(KSPSetFromOptions(solver.get()));
+  check(KSPSolve(solver.get(), b, u));
+
+  PetscVector rest = like(b);
+  check(MatMult(A, u, rest.get()));
+  check(VecAYPX(rest.get(), -1, b));
+  const double norm = normOf(b);
+  DistributedSolve made;
+  check(KSPGetIterationNumber(solver.get(), &made.iterations));
+  made.residual = norm > 0 ? normOf(rest.get()) / norm : 0;
+  if (!(made.residual <= most_residual))
+    throw SolverFailure(std::string(function) + ": the residual is " + numberText(made.residual) + " after " +
+                        std::to_string(made.iterations) + " iterations, must be at most " + numberText(most_residual));
+  if (report != nullptr) *report = made;
+}
+
+void requireFinite(const char* function, const char* name, Vec vector) {
+  PetscReal norm = 0;
+  check(VecNorm(vector, NORM_INFINITY, &norm));
+  if (!std::isfinite(norm)) throw InvalidInput(std::string(function) + ": " + name + " must be finite");
+}
+
+}  // namespace
+
+PetscVector poisson(const DistributedLaplacian& laplacian, Vec f, DistributedSolve* report) {
+  PetscInt given = 0, size = 0;
+  check(VecGetLocalSize(f, &given));
+  check(VecGetLocalSize(laplacian.M.get(), &size));
+  if (given != size)
+    throw InvalidInput("poisson: f has " + std::to_string(given) + " values on a process, must have " +
+                       std::to_string(size));
+  requireFinite("poisson", "f", f);
+  PetscVector b = like(f), u = like(f);
+  check(VecCopy(f, b.get()));
+  subtractMeans(laplacian, b.get());
+  check(VecPointwiseMult(b.get(), laplacian.M.get(), b.get()));
+  check(VecSet(u.get(), 0));
+  solve("poisson", laplacian.L.get(), definiteOf(laplacian).get(), b.get(), u.get(), report);
+  subtractMeans(laplacian, u.get());
+  return u;
+}
+
+PetscVector harmonic(const DistributedLaplacian& laplacian, const std::vector<PetscInt>& rows,
+                     const std::vector<double>& values, DistributedSolve* report) {
+  PetscInt first = 0, size = 0;
+  check(VecGetSize(laplacian.M.get(), &size));
+  check(VecGetOwnershipRange(laplacian.M.get(), &first, nullptr));
+  if (values.size() != rows.size())
+    throw InvalidInput("harmonic: " + std::to_string(values.size()) + " values, must be " +
+                       std::to_string(rows.size()) + ", one per row");
+  for (const PetscInt row : rows)
+    if (row < 0 || row >= size)
+      throw InvalidInput("harmonic: row " + std::to_string(row) + ", must be in [0, " + std::to_string(size) + ")");
+  // Which rows have a value: a mark that travels to the process of each row.
+  PetscVector mark = like(laplacian.M.get()), u = like(laplacian.M.get()), b = like(laplacian.M.get());
+  const std::vector<std::int64_t> numbers(rows.begin(), rows.end());
+  check(VecSet(mark.get(), 0));
+  setAt(mark.get(), numbers, std::vector<double>(rows.size(), 1));
+  check(VecSet(u.get(), 0));
+  setAt(u.get(), numbers, values);
+  requireFinite("harmonic", "values", u.get());
+  const std::vector<double> is_given = localOf(mark.get());
+  const std::vector<double> given = sumsOf(laplacian, is_given);
+  if (std::none_of(given.begin(), given.end(), [](double count) { return count > 0; }))
+    throw InvalidInput("harmonic: no row has a given value, must be at least one");
+
+  std::vector<PetscInt> fixed;
+  for (std::size_t i = 0; i < is_given.size(); ++i)
+    if (is_given[i] > 0 || given[laplacian.component[i]] == 0) fixed.push_back(first + static_cast<PetscInt>(i));
+  PetscMatrix A;
+  check(MatDuplicate(laplacian.L.get(), MAT_COPY_VALUES, A.make()));
+  check(VecSet(b.get(), 0));
+  check(MatZeroRowsColumns(A.get(), static_cast<PetscInt>(fixed.size()), fixed.data(), 1, u.get(), b.get()));
+  solve("harmonic", A.get(), A.get(), b.get(), u.get(), report);
+  std::vector<double> result = localOf(u.get());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    if (given[laplacian.component[i]] == 0) result[i] = std::nan("");
+  setLocal(u.get(), result);
+  return u;
+}
+
+}  // namespace tufted

@@ -1,0 +1,397 @@
+// The command for clouds that several processes share: `mpirun -n 4 tufted-mpi SUBCOMMAND FILE --out DIR`.
+#include <slepc.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "../bytes.h"
+#include "../options.h"
+#include "tufted/errors.h"
+#include "tufted/io/results.h"
+#include "tufted/io/tiles.h"
+#include "tufted/mpi/solves.h"
+#include "tufted/mpi/write.h"
+#include "tufted/version.h"
+
+namespace {
+
+constexpr const char* footer =
+    R"(Examples:
+  mpirun -n 4 tufted-mpi spectrum survey.las --count 20 --out modes
+  mpirun -n 4 tufted-mpi poisson survey.las --coordinate z --out solution -ksp_monitor
+  srun tufted-mpi laplacian survey.las --memory 8G --out matrices
+
+No process holds all points: each reads the file in passes, keeps the points in a file without a name beside DIR or in it, and
+builds its own part of L, with the preset `clean`, which does not move noisy points.
+
+Words such as -ksp_type and -eps_tol, with a single dash, are options of PETSc and SLEPc; give them behind FILE. All
+processes must see FILE and DIR. `mpirun -q` leaves out what mpirun says about a process that fails.
+Exit codes: 0 done, 1 the data or the numerics do not allow it, 2 the command line is wrong.)";
+
+enum ExitCode : int { exit_done = 0, exit_failed = 1, exit_usage = 2 };
+
+struct Settings {
+  std::filesystem::path file, out;
+  tufted::ReadAs as = tufted::ReadAs::automatic;
+  tufted::TileOptions tiles;
+  // Of one subcommand each.
+  std::string coordinate;
+  std::filesystem::path values, pins;
+  int count = 10;
+  double tolerance = 1e-9;
+};
+
+/// What a subcommand computes.
+using Compute = std::function<void(const tufted::DistributedLaplacian& laplacian, const tufted::PointSource& source)>;
+
+int processNumber() {
+  int number = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &number);
+  return number;
+}
+
+/// Makes process 0 do something. Its error ends all processes, with one message.
+void inProcess0(const std::function<void()>& work) {
+  if (processNumber() == 0) work();
+  MPI_Barrier(PETSC_COMM_WORLD);
+}
+
+/// A folder, or the nearest one above it that exists.
+std::filesystem::path existingFolder(const std::filesystem::path& folder) {
+  std::filesystem::path existing = std::filesystem::absolute(folder);
+  while (!std::filesystem::is_directory(existing) && existing.has_relative_path()) existing = existing.parent_path();
+  return existing;
+}
+
+/// One coordinate of each point, by row.
+tufted::PetscVector coordinateOf(const tufted::DistributedLaplacian& laplacian, const tufted::PointSource& source,
+                                 int axis) {
+  tufted::PetscVector by_point;
+  VecDuplicate(laplacian.row.get(), by_point.make());
+  PetscInt first = 0, last = 0;
+  VecGetOwnershipRange(by_point.get(), &first, &last);
+  PetscScalar* values = nullptr;
+  VecGetArray(by_point.get(), &values);
+  std::int64_t done = 0;
+  source.pass([&](const tufted::PointsRef& batch) {
+    for (Eigen::Index i = 0; i < batch.rows(); ++i, ++done)
+      if (done >= first && done < last) values[done - first] = batch(i, axis);
+  });
+  VecRestoreArray(by_point.get(), &values);
+  return valuesByRow(laplacian, by_point.get());
+}
+
+/// Values of a .npy file, by row. Process 0 reads them.
+tufted::PetscVector valuesOf(const tufted::DistributedLaplacian& laplacian, const std::filesystem::path& file) {
+  tufted::PetscVector by_point;
+  VecDuplicate(laplacian.row.get(), by_point.make());
+  inProcess0([&] {
+    const Eigen::MatrixXd values = tufted::readArray(file);
+    if (values.rows() != laplacian.report.points || values.cols() != 1)
+      throw tufted::InvalidInput(file.string() + " has " + std::to_string(values.rows()) + " x " +
+                                 std::to_string(values.cols()) + " values, must have " +
+                                 std::to_string(laplacian.report.points) + " x 1, one per point");
+    for (Eigen::Index i = 0; i < values.rows(); ++i)
+      VecSetValue(by_point.get(), static_cast<PetscInt>(i), values(i), INSERT_VALUES);
+  });
+  VecAssemblyBegin(by_point.get());
+  VecAssemblyEnd(by_point.get());
+  return valuesByRow(laplacian, by_point.get());
+}
+
+/// Pins of a text file: the rows of the points, and their values. In process 0; none in the others.
+struct Pins {
+  std::vector<PetscInt> rows;
+  std::vector<double> values;
+};
+
+/// Reads lines INDEX VALUE.
+std::vector<std::pair<std::int64_t, double>> readPins(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw tufted::IoError(file.string() + ": cannot read");
+  std::vector<std::pair<std::int64_t, double>> pins;
+  int line = 0;
+  for (std::string text; std::getline(stream, text);) {
+    ++line;
+    text.erase(std::min(text.find('#'), text.size()));
+    std::istringstream words(text);
+    std::pair<std::int64_t, double> pin;
+    std::string rest;
+    if (!(words >> rest)) continue;
+    words.clear();
+    words.seekg(0);
+    if (!(words >> pin.first >> pin.second) || words >> rest)
+      throw tufted::IoError(file.string() + ": line " + std::to_string(line) + ": is not INDEX VALUE");
+    pins.push_back(pin);
+  }
+  return pins;
+}
+
+Pins pinsOf(const tufted::DistributedLaplacian& laplacian, const std::filesystem::path& file) {
+  std::vector<std::pair<std::int64_t, double>> given;
+  inProcess0([&] {
+    given = readPins(file);
+    for (const auto& [point, value] : given)
+      if (point < 0 || point >= laplacian.report.points)
+        throw tufted::InvalidInput("--pins: point " + std::to_string(point) + ", must be in [0, " +
+                                   std::to_string(laplacian.report.points) + ")");
+  });
+  std::vector<std::int64_t> points;
+  for (const auto& [point, value] : given) points.push_back(point);
+  const std::vector<PetscInt> rows = rowsOf(laplacian, points);
+  Pins pins;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (rows[i] < 0)
+      throw tufted::InvalidInput("--pins: point " + std::to_string(points[i]) + " takes no part, must be active");
+    pins.rows.push_back(rows[i]);
+    pins.values.push_back(given[i].second);
+  }
+  return pins;
+}
+
+/// Options of PETSc in the command line, with their values; they are taken out of the words.
+std::vector<std::string> takePetscOptions(std::vector<std::string>& words) {
+  const auto isOption = [](const std::string& word) {
+    return word.size() > 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) != 0;
+  };
+  std::vector<std::string> options, others;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!isOption(words[i])) {
+      others.push_back(words[i]);
+      continue;
+    }
+    options.push_back(words[i]);
+    if (i + 1 < words.size() && !isOption(words[i + 1]) && !words[i + 1].starts_with("--"))
+      options.push_back(words[++i]);
+  }
+  words = others;
+  return options;
+}
+
+/// Warns of options that PETSc did not ask for.
+void warnUnused() {
+  PetscInt count = 0;
+  char** names = nullptr;
+  char** values = nullptr;
+  PetscOptionsLeftGet(nullptr, &count, &names, &values);
+  for (PetscInt i = 0; i < count && processNumber() == 0; ++i)
+    std::fprintf(stderr, "tufted-mpi: warning: nothing has used the option -%s\n", names[i]);
+  PetscOptionsLeftRestore(nullptr, &count, &names, &values);
+}
+
+nlohmann::ordered_json reportOf(const Settings& settings, const tufted::TileReport& report) {
+  int processes = 0;
+  MPI_Comm_size(PETSC_COMM_WORLD, &processes);
+  return {{"tufted", TUFTED_VERSION},
+          {"source", settings.file.string()},
+          {"processes", processes},
+          {"neighbors", settings.tiles.cloud.neighbors},
+          {"points", report.points},
+          {"active", report.active},
+          {"coincident", report.coincident},
+          {"isolated", report.isolated},
+          {"nonzeros", report.nonzeros},
+          {"area", report.area},
+          {"tiles", report.tiles},
+          {"builds", report.builds},
+          {"most_points", report.most_points}};
+}
+
+/// The command line.
+class CommandLine {
+ public:
+  CommandLine() : app_("Laplacians of clouds, and systems with them, on the processes of MPI.", "tufted-mpi") {
+    app_.set_version_flag("-V,--version", TUFTED_VERSION);
+    app_.require_subcommand(1);
+    app_.footer(footer);
+    settings_.tiles.cloud = tufted::cloudOptions(tufted::Preset::clean);
+    settings_.tiles.cloud.threads = 1;
+    addLaplacian();
+    addPoisson();
+    addHarmonic();
+    addSpectrum();
+  }
+
+  /// Parses the words, and returns an exit code if that is all there is to do.
+  std::optional<int> parse(std::vector<std::string> words) {
+    try {
+      std::reverse(words.begin(), words.end());  // CLI11 expects them in reverse
+      app_.parse(std::move(words));
+    } catch (const CLI::Success& help) {
+      return processNumber() == 0 ? app_.exit(help) : exit_done;
+    } catch (const CLI::ParseError& error) {
+      if (processNumber() == 0) std::fprintf(stderr, "tufted-mpi: %s; see tufted-mpi --help\n", error.what());
+      return exit_usage;
+    }
+    return std::nullopt;
+  }
+
+  void run() {
+    const auto start = std::chrono::steady_clock::now();
+    // Other processes find the same faults, but later: one message is enough.
+    inProcess0([&] {
+      tufted::sourceOf(settings_.file, settings_.as);
+      tufted::checkWritable(settings_.out);
+    });
+    const tufted::FileSource source = tufted::sourceOf(settings_.file, settings_.as);
+    settings_.tiles.folder = existingFolder(settings_.out);
+    const auto laplacian = tufted::distributedLaplacian(PETSC_COMM_WORLD, source, settings_.tiles);
+    compute_(laplacian, source);
+    auto report = reportOf(settings_, laplacian.report);
+    report.update(report_);
+    result_.report = report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    tufted::writeDistributed(settings_.out, laplacian, result_);
+    warnUnused();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    PetscPrintf(PETSC_COMM_WORLD, "points      %lld, %lld take part, %s\narea        %.10g, the sum of M\n",
+                static_cast<long long>(laplacian.report.points), static_cast<long long>(laplacian.report.active),
+                countText(laplacian.components, "component").c_str(), laplacian.report.area);
+    if (report_.contains("iterations"))
+      PetscPrintf(PETSC_COMM_WORLD, "solved      in %d iterations, residual %.2g\n", report_["iterations"].get<int>(),
+                  report_["residual"].get<double>());
+    PetscPrintf(PETSC_COMM_WORLD, "took        %.3g s\nwritten to  %s\n", seconds.count(), settings_.out.c_str());
+  }
+
+ private:
+  CLI::App& add(const char* name, const char* description, Compute compute) {
+    CLI::App& command = *app_.add_subcommand(name, description);
+    command.add_option("FILE", settings_.file, "Cloud: LAS, PLY, PCD, NPY, text in columns")
+        ->required()
+        ->check(notEmpty);
+    command.add_option("--out", settings_.out, "Folder of the results, made if missing")
+        ->required()
+        ->check(notEmpty)
+        ->type_name("DIR");
+    addChoice(command, "--as", settings_.as, kinds, "What a PLY or OBJ is read as");
+    command.add_option("--neighbors", settings_.tiles.cloud.neighbors, "Neighbours of each point")
+        ->capture_default_str();
+    command.add_option("--threads", settings_.tiles.cloud.threads, "Threads of each process")->capture_default_str();
+    command
+        .add_option_function<std::string>(
+            "--memory",
+            [this](const std::string& size) { settings_.tiles.memory = static_cast<double>(*parseBytes(size)); },
+            "Memory of each process; smaller tiles are built to keep it")
+        ->check([](const std::string& size) {
+          return parseBytes(size) ? std::string() : size + " is not a size such as 4G or 500M";
+        })
+        ->type_name("SIZE")
+        ->default_str("4G");
+    command.callback([this, compute = std::move(compute)] { compute_ = compute; });
+    return command;
+  }
+
+  void addSolve(const tufted::DistributedSolve& made) {
+    report_["iterations"] = made.iterations;
+    report_["residual"] = made.residual;
+  }
+
+  void addLaplacian() {
+    add("laplacian", "Write L and M as files of PETSc.",
+        [this](const auto&, const auto&) { result_.has_matrices = true; });
+  }
+
+  void addPoisson() {
+    CLI::App& command =
+        add("poisson", "Solve L u = M f; writes u.npy.", [this](const auto& laplacian, const auto& source) {
+          const tufted::PetscVector f = settings_.values.empty()
+                                            ? coordinateOf(laplacian, source, settings_.coordinate[0] - 'x')
+                                            : valuesOf(laplacian, settings_.values);
+          tufted::DistributedSolve made;
+          kept_.push_back(poisson(laplacian, f.get(), &made));
+          addSolve(made);
+          result_.arrays = {{"u", {kept_.back().get()}}};
+        });
+    auto* const f = command.add_option_group("f");
+    f->require_option(1);
+    f->add_option("--values", settings_.values, "f, a .npy file of N values; process 0 reads it as a whole")
+        ->type_name("NPY");
+    f->add_option("--coordinate", settings_.coordinate, "f is a coordinate of the points")
+        ->check(CLI::IsMember({"x", "y", "z"}));
+  }
+
+  void addHarmonic() {
+    CLI::App& command = add("harmonic", "Interpolate values of some points harmonically; writes values.npy.",
+                            [this](const auto& laplacian, const auto&) {
+                              const Pins pins = pinsOf(laplacian, settings_.pins);
+                              tufted::DistributedSolve made;
+                              kept_.push_back(harmonic(laplacian, pins.rows, pins.values, &made));
+                              addSolve(made);
+                              result_.arrays = {{"values", {kept_.back().get()}}};
+                            });
+    command.add_option("--pins", settings_.pins, "Text file of pins, lines INDEX VALUE")->required()->type_name("TEXT");
+  }
+
+  void addSpectrum() {
+    CLI::App& command = add("spectrum", "Find the smallest positive eigenvalues; writes evals.npy and evecs.npy.",
+                            [this](const auto& laplacian, const auto&) {
+                              auto found = spectrum(laplacian, settings_.count, settings_.tolerance);
+                              addSolve(found.report);
+                              kept_ = std::move(found.vectors);
+                              tufted::DistributedArray vectors = {"evecs", {}};
+                              for (const auto& vector : kept_) vectors.columns.push_back(vector.get());
+                              result_.arrays = {std::move(vectors)};
+                              result_.lists = {{"evals", std::move(found.values)}};
+                            });
+    command.add_option("--count", settings_.count, "Number of eigenpairs")->capture_default_str();
+    command.add_option("--tolerance", settings_.tolerance, "Tolerance on their residual")->capture_default_str();
+  }
+
+  CLI::App app_;
+  Settings settings_;
+  Compute compute_;
+  std::vector<tufted::PetscVector> kept_;  ///< vectors of the result
+  tufted::DistributedResult result_;
+  nlohmann::ordered_json report_ = nlohmann::ordered_json::object();
+};
+
+/// Prints a message and ends all processes.
+void fail(const std::string& message, int code) {
+  std::fprintf(stderr, "tufted-mpi: %s\n", message.c_str());
+  MPI_Abort(PETSC_COMM_WORLD, code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> petsc = takePetscOptions(words);
+  petsc.insert(petsc.begin(), {"tufted-mpi", "-no_signal_handler"});
+  std::vector<char*> arguments;
+  for (std::string& word : petsc) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  int count = static_cast<int>(petsc.size());
+  char** values = arguments.data();
+  if (SlepcInitialize(&count, &values, nullptr, nullptr) != 0) return exit_failed;
+  PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);  // errors are thrown
+  int code = exit_done;
+  {
+    CommandLine command;
+    if (const std::optional<int> done = command.parse(words)) {
+      code = *done;
+    } else {
+      try {
+        command.run();
+      } catch (const tufted::InvalidInput& error) {
+        fail(withoutClass(error.what()), exit_usage);
+      } catch (const std::bad_alloc&) {
+        fail("out of memory", exit_failed);
+      } catch (const std::exception& error) {
+        fail(error.what(), exit_failed);
+      }
+    }
+  }
+  SlepcFinalize();
+  return code;
+}
