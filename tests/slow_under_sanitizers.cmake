@@ -103,4 +103,3 @@ if(TUFTED_SANITIZE STREQUAL "address")  # what threads do is looked at by the ot
        Rank.OfCrowdsAndCopiesIsTheSameOnAnyNumberOfThreads
        ScanStructure.PermutedOrOnMoreThreadsGivesTheSameBits)
 endif()
-string(JOIN : slow_tests ${slow_tests})
