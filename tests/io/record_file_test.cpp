@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 
+#include "../support/refusal.h"
 #include "las_file.h"
 #include "temporary_dir.h"
 #include "tufted/errors.h"
@@ -116,14 +117,7 @@ bool areSame(const Points& a, const Points& b) {  // NaN included
          std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "was accepted";
-}
+using tufted::support::refusal;
 
 /// The points that a pass gives.
 Points pointsOf(const FileSource& source) {

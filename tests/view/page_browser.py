@@ -36,8 +36,9 @@ def legend_of(page):
     return page.run("return document.getElementById('legend').getAttribute('aria-label')")
 
 
-def wait(page, milliseconds=100):
-    page.run("return new Promise((done) => setTimeout(done, arguments[0]))", milliseconds)
+def wait(page):
+    """Until what has happened on the page is drawn: two frames, as the first may have begun before."""
+    page.run("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 def untroubled(page, path):
@@ -305,9 +306,10 @@ def test_without_webgl_the_page_says_so(page, dir):
           return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...more);
         };""")
     page.driver.get((dir / "plane.html").resolve().as_uri())
-    wait(page, 300)
     page.cdp("Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
-    message = page.run("const m = document.getElementById('message'); return m.checkVisibility() ? m.innerText : ''")
+    message, end = "", time.time() + 60
+    while not message and time.time() < end:
+        message = page.run("const m = document.getElementById('message'); return m.checkVisibility() ? m.innerText : ''")
     assert "needs WebGL 2" in message, message
     assert page.run("return window.tufted.ready") is False
 
