@@ -211,6 +211,11 @@ TEST(Progress, CancelsSolvesAndQueriesAtEveryCall) {
     };
     const Solver solver = Solver::laplacian(laplacian, made);
     const DistanceSolver distance(laplacian, {.method = DistanceMethod::heat, .solver = made});
+    expectToCancelAtEveryCall("Solver", 2,
+                              [&](const Progress& progress) { Solver::laplacian(laplacian, options(progress)); });
+    expectToCancelAtEveryCall("smooth", 5, [&](const Progress& progress) {
+      smooth(laplacian, laplacian.positions, {.iterations = 3, .solver = options(progress)});
+    });
     expectToCancelAtEveryCall("solve", by_multigrid ? 10 : 2,
                               [&](const Progress& progress) { solver.solve(f, nullptr, progress); });
     expectToCancelAtEveryCall("query", by_multigrid ? 30 : 8,
