@@ -117,7 +117,9 @@ bool areSame(const Points& a, const Points& b) {  // NaN included
          std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 
-using tufted::support::refusal;
+std::string refusal(const std::function<void()>& call) {
+  return tufted::support::refusal<std::exception>(call);
+}
 
 /// The points that a pass gives.
 Points pointsOf(const FileSource& source) {
