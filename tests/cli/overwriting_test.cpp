@@ -123,6 +123,7 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       {{"parameterize", mesh, "--cut", "INPUT"}, "1 0\n"}};
   std::set<std::string> options;
   for (const Reading& reading : readings) {
+    const bool is_first = &reading == &readings[0];  // all readings ask the same function whether two paths are one
     const auto named = [&](const std::string& input) {
       Words words = reading.words;
       std::replace(words.begin(), words.end(), std::string("INPUT"), input);
@@ -140,7 +141,9 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       const std::string input = dir_.write(std::string("here/input") + ending, reading.text),
                         link = in("link") + ending;
       fs::create_symlink(input, link);
-      for (const std::string& output : {input, in("here/../here/./input") + ending, link}) {
+      std::vector<std::string> outputs = {input};
+      if (is_first) outputs.insert(outputs.end(), {in("here/../here/./input") + ending, link});
+      for (const std::string& output : outputs) {
         expectKept(with(named(input), {"--out", in("new"), option, output}));
         expectKept(with(named(output), {"--out", in("new"), option, input}));
       }
@@ -157,10 +160,12 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       fs::create_directories(dir_ / "old");
       const std::string input = dir_.write("old/" + name, reading.text);
       expectKept(with(named(input), {"--out", in("old")}));
-      expectKept(with(named(in("here/../old/" + name)), {"--out", in("old/.")}));
-      fs::create_symlink(input, in("link"));
-      expectKept(with(named(in("link")), {"--out", in("old")}));
-      fs::remove(in("link"));
+      if (is_first) {
+        expectKept(with(named(in("here/../old/" + name)), {"--out", in("old/.")}));
+        fs::create_symlink(input, in("link"));
+        expectKept(with(named(in("link")), {"--out", in("old")}));
+        fs::remove(in("link"));
+      }
       fs::remove_all(dir_ / "old");
     }
     fs::remove_all(dir_ / "made");
