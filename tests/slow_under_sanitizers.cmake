@@ -1,14 +1,8 @@
 # Core tests that are left to the release build: they compare results or measure errors of large shapes, which takes more
 # than 3 s under sanitizers, and others run most of the same code there.
 set(slow_tests
-    Tiles.OfANoisySphereAreThoseOfTheWhole
-    Tiles.OfASphereAreThoseOfTheWhole
-    Tiles.OfATerrainWithOutliersAreThoseOfTheWhole
-    Tiles.OfLinesAreThoseOfTheWhole
-    Tiles.OfSteppedHeightsAreThoseOfTheWhole
-    Tiles.OfUnevenDensityAreThoseOfTheWhole
     BlockLanczos.SearchesUntilNothingIsMissingAndStaysExact
-    BlockLanczos.TakesMostOfASpaceWithoutLeadingIntoTheNullSpace
+    BlockLanczos.TakesNoLongerWhereTheWantedEndWithinACluster
     BoundedWeights.AreThoseOfAnotherSolver
     BoundedWeights.HoldTheirConditionsOnCloudsAndBadMeshes
     CloudBuild.FromStarsEqualsTheWholeCover
@@ -30,12 +24,14 @@ set(slow_tests
     Denoise.LeavesVolumesAlone
     Denoise.MovesAsTheCloudDoes
     Denoise.SaysHowStrongTheNoiseIs
+    Diagonals.OfGridsOnCurvedSurfacesLeaveAreaAndSpectrumRight
     Distance.GoesOnWhereNotEvenAWindowHasAFactor
     Distance.InWindowsOfHeatIsThatOfTheWhole
     Distance.IsFiniteAndMonotoneAtAHundredThousandEdges
     Distance.ScalesAndMovesWithTheCloud
     EveryAlgorithm.DoesNotDependOnTheUnit
     EveryReport.HasMethodIterationsResidualAndSeconds
+    FaceSource.LiesAtItsPlaceOnPagesOfSlivers
     Gradients.OfCoordinatesAreTheAxesInThePlanes
     Gradients.OnASphereFallWithTheSpacingAndWithNoise
     Harmonic.StaysWithinItsPinsWhateverTheSurface
@@ -60,16 +56,27 @@ set(slow_tests
     Neighbors.AreTheSameInAnyNumberOfTrees
     Neighbors.EqualBruteForceWithTiesToTheSmallerIndex
     Neighbors.OfKnownCandidatesAreThoseOfTheTree
+    Noise.IsFoundWhateverExactPointsLieFarAway
+    Noise.OfASlabOfTheCloudIsThatOfTheCloud
     OrientedFrames.AreTheSameInAnyOrderUnitAndPlace
     OrientedFrames.PointOutwardsOnClosedSurfaces
+    Panorama.OfASphereFromWithinHasItsAreaAndSpectrum
+    Parts.HaveTheResultsThatTheyHaveAlone
     Path.CrossesTheSpineOfABook
     Path.IsAsLongAsExactOnesOnMeshes
     Path.IsStraightAlongARimThatEdgesWereFlippedOver
     PointsWithin.AreThoseOfASolverOnClouds
     Presets/Tags.*/0
+    Report.IsForPeopleAndNothingComputesWithIt
     RingStructure.ClosesACylinderAroundItsSensor
     RingStructure.ClosesTheRoomThatTheTreeLeavesOpen
+    RingStructure.OfAScannerThatStandsElsewhereIsThatOfTheScanner
+    SeveralSources.AreAsNearAsTheNearestOfThemOnAFlatGrid
+    SeveralSources.AreAsNearAsTheNearestOfThemOnCurvedMeshesAndClouds
+    SeveralSources.AreAsNearAsTheNearestOfThemOnFlatMeshesWithObtuseAngles
     SignedDistance.FromCirclesIsOfFirstOrder
+    SmoothedFurther.IsThatOfALoopOverPixelsForImagesOfAnySize
+    SmoothedFurther.WhereNoiseIsWhiteIsThatOfALoopOverPixels
     Smoothing.KeepsEachCoordinateInTheRangeOfItsComponent
     Smoothing.KeepsTheCentroidOfEachComponent
     Smoothing.ShrinksASphereAsItsEigenvalueSays
@@ -86,8 +93,16 @@ set(slow_tests
     Spectrum.IsThatOfTheOracle
     Spectrum.OnAnyNumberOfThreadsGivesTheSameBits
     Spectrum.ScalesWithTheCloud
+    StraightLine.IsNotLongerThanDistances
+    StraightLine.IsNotLongerThanPaths
     SurfaceTriangles.OfATorusAreClosed
     SurfaceTriangles.OfNoisyPointsHaveOneOrTwoAtEachEdge
+    Tiles.OfANoisySphereAreThoseOfTheWhole
+    Tiles.OfASphereAreThoseOfTheWhole
+    Tiles.OfATerrainWithOutliersAreThoseOfTheWhole
+    Tiles.OfLinesAreThoseOfTheWhole
+    Tiles.OfSteppedHeightsAreThoseOfTheWhole
+    Tiles.OfUnevenDensityAreThoseOfTheWhole
     Transport.ByMultigridIsTheSame
     Transport.OnASphereTurnsWithTheGreatCircle
     WaveKernelSignature.OfAHomogeneousSurfaceIsOneOverItsArea)
@@ -103,4 +118,3 @@ if(TUFTED_SANITIZE STREQUAL "address")  # what threads do is looked at by the ot
        Rank.OfCrowdsAndCopiesIsTheSameOnAnyNumberOfThreads
        ScanStructure.PermutedOrOnMoreThreadsGivesTheSameBits)
 endif()
-string(JOIN : slow_tests ${slow_tests})

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and runs all tests. The last line counts them: N passed, N failed.
 #   --quick  the release build alone
-#   --all    also the GPL parts under sanitizers, the parallel stages under ThreadSanitizer, the core alone as a package,
+#   --all    also the GPL parts and the command under sanitizers, the parallel stages under ThreadSanitizer, the core alone as a package,
 #            and clang-tidy
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -62,11 +62,12 @@ build() {
   return 1
 }
 
-# tests NAME COMMAND...: runs tests by ctest and adds them up. ctest counts a test that it cannot start as failed and one
-# that skips itself as passed, so the latter are taken off.
+# tests NAME BUILD ARGUMENTS...: runs the tests of a folder by ctest and adds them up. ctest counts a test that it cannot
+# start as failed and one that skips itself as passed, so the latter are taken off. For ctest a suite of GoogleTest is one
+# test; here each of its cases counts, unless it fails.
 tests() {
-  local name=$1 seconds=$SECONDS summary bad total odd
-  shift
+  local name=$1 build=$2 seconds=$SECONDS summary bad good odd
+  shift 2
   ctest "$@" >"$scratch/log" 2>&1 || true
   summary=$(grep -Eo '[0-9]+ tests? failed out of [0-9]+' "$scratch/log" | tail -n 1 || true)
   if [[ ! $summary =~ ^([0-9]+)\ tests?\ failed\ out\ of\ ([0-9]+)$ ]]; then
@@ -75,18 +76,27 @@ tests() {
     failed=$((failed + 1))
     return
   fi
-  bad=${BASH_REMATCH[1]} total=${BASH_REMATCH[2]}
-  odd=$(grep -Ec '^ *[0-9]+/[0-9]+ Test .*\*\*\*Skipped' "$scratch/log" || true)
+  bad=${BASH_REMATCH[1]}
+  odd=$(count '^ *[0-9]+/[0-9]+ Test .*\*\*\*Skipped' "$scratch/log")
+  good=$((BASH_REMATCH[2] - bad - odd))
+  local output=$build/Testing/Temporary/LastTest.log
+  good=$((good - $(count '^\[  PASSED  \]' "$output") + $(count '^\[  FAILED  \] .* listed below:' "$output")))
+  good=$((good + $(count '^\[       OK \]' "$output"))) odd=$((odd + $(count '^\[  SKIPPED \] .* ms\)$' "$output")))
   ((bad == 0)) || cat "$scratch/log"
-  passed=$((passed + total - bad - odd)) failed=$((failed + bad)) skipped=$((skipped + odd))
-  echo "$name: $((total - bad - odd)) passed, $bad failed, $odd skipped ($((SECONDS - seconds)) s)"
+  passed=$((passed + good)) failed=$((failed + bad)) skipped=$((skipped + odd))
+  echo "$name: $good passed, $bad failed, $odd skipped ($((SECONDS - seconds)) s)"
+}
+
+# count PATTERN FILE: how many lines of a file match.
+count() {
+  grep -Ec "$1" "$2" || true
 }
 
 # preset NAME ARGUMENTS...: configures, builds and tests one of CMakePresets.json.
 preset() {
   step "$1: configure" cmake --preset "$1" "${configure_arguments[@]}" "${@:2}" &&
     step "$1: build" build "$1" &&
-    tests "$1: tests" --preset "$1"
+    tests "$1: tests" "build/$1" --preset "$1"
 }
 
 # consumer NAME BUILD ARGUMENTS...: installs BUILD and builds a project of a user's against what is installed; in build/,
@@ -99,7 +109,7 @@ consumer() {
     step "$name: configure" cmake -S tests/consumer -B "$dir/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
       -DCMAKE_PREFIX_PATH="$dir/prefix" "$@" &&
     step "$name: build" cmake --build "$dir/build" &&
-    tests "$name: tests" --test-dir "$dir/build" --output-on-failure --no-tests=error
+    tests "$name: tests" "$dir/build" --test-dir "$dir/build" --output-on-failure --no-tests=error
 }
 
 # formatted: whether all files are as Debian's clang-format 14 leaves them.

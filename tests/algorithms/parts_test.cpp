@@ -32,12 +32,11 @@ std::vector<Scene> scenes() {
   const auto placed = [](const Points& points, double size) -> Points {
     return (size * points).rowwise() + Eigen::RowVector3d(4 * size, 0, 0);
   };
-  const Points fine = shapes::torus(1500).points;
-  const shapes::Cloud noisy = shapes::withNoise(shapes::sphere(2000), 0.02, 3);
-  return {{"coarse", fine, placed(shapes::sphere(2500).points, 300)},
-          {"huge", shapes::ellipsoid(1500).points, placed(shapes::sphere(2000).points, 1e6)},
-          {"noisy", fine, placed(noisy.points, 10)},
-          {"noisy, of more points", fine, placed(shapes::withNoise(shapes::sphere(3400), 0.03, 4).points, 3)}};
+  const Points fine = shapes::torus(800).points;
+  const shapes::Cloud noisy = shapes::withNoise(shapes::sphere(1500), 0.03, 3);
+  return {{"coarse", fine, placed(shapes::sphere(1200).points, 300)},
+          {"huge", shapes::ellipsoid(800).points, placed(shapes::sphere(1000).points, 1e6)},
+          {"noisy", fine, placed(noisy.points, 10)}};
 }
 
 /// Where there is no mollification, whose length is one for the whole cloud.
@@ -84,9 +83,9 @@ TEST(Parts, OfMeshesHaveTheirOwnEdges) {
 }
 
 TEST(Report, IsForPeopleAndNothingComputesWithIt) {
-  shapes::Cloud noisy = shapes::withNoise(shapes::torus(3000), 0.01, 5);
+  shapes::Cloud noisy = shapes::withNoise(shapes::torus(1500), 0.02, 5);
   noisy.points.row(70) = noisy.points.row(5);
-  for (const Points& points : {noisy.points, shapes::sphere(1200).points}) {
+  for (const Points& points : {noisy.points, shapes::sphere(600).points}) {
     const Laplacian laplacian = pointCloudLaplacian(points);
     Laplacian bare = laplacian;
     bare.report = {};

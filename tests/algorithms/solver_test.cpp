@@ -231,33 +231,6 @@ TEST(Solver, FailsTypedWhenTheMatrixIsNotPositiveDefinite) {
   EXPECT_THROW(Solver::positiveDefinite(saddle, {.method = SolverMethod::cholesky}), SolverFailure);
 }
 
-TEST(Solver, FailsTypedWhenIterationsDoNotSuffice) {
-  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(4000).points);
-  const Solver solver = Solver::laplacian(laplacian, {.method = SolverMethod::multigrid, .max_iterations = 2});
-  try {
-    solver.solve(someValues(4000, 1));
-    FAIL() << "solved in two iterations";
-  } catch (const SolverFailure& error) {
-    EXPECT_NE(std::string(error.what()).find("after 2 iterations"), std::string::npos) << error.what();
-  }
-}
-
-TEST(Solver, CancelsAtEveryCall) {
-  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(4000).points);
-  for (const SolverMethod method : methods) {
-    int calls = 0;
-    const auto makeUntil = [&](int stop) {
-      calls = 0;
-      Solver::laplacian(laplacian,
-                        {.method = method, .progress = [&](std::string_view, double) { return ++calls < stop; }});
-    };
-    makeUntil(std::numeric_limits<int>::max());
-    const int all = calls;
-    EXPECT_GE(all, 2);
-    for (int stop = 1; stop <= all; ++stop) EXPECT_THROW(makeUntil(stop), Cancelled) << stop << " of " << all;
-  }
-}
-
 TEST(Solver, FailsTypedWhereTheSolutionOverflows) {
   SparseMatrix A(2, 2);
   A.coeffRef(0, 0) = A.coeffRef(1, 1) = 2e-309;

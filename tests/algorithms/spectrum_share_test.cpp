@@ -78,18 +78,12 @@ TEST(SpectrumOfMost, IsThatOfDenseMatricesByBothMethods) {
   for (const int n : {50, 300}) {
     for (const Kind kind : kinds) {
       for (const int parts : {1, 3}) {
-        for (const std::uint64_t seed : {1, 2})
-          expectMostOf(spheres(kind, parts, n, seed), {by_default, 0},
-                       std::to_string(n) + " points, " + std::to_string(parts) + " parts, kind " +
-                           std::to_string(static_cast<int>(kind)) + ", seed " + std::to_string(seed));
+        expectMostOf(spheres(kind, parts, n, 1), {by_default, 0},
+                     std::to_string(n) + " points, " + std::to_string(parts) + " parts, kind " +
+                         std::to_string(static_cast<int>(kind)));
       }
     }
   }
-}
-
-TEST(SpectrumOfMost, IsThatOfDenseMatricesOn600Points) {
-  expectMostOf(spheres(kinds[2], 3, 600, 2), {by_default}, "600 points in 3 parts");
-  expectMostOf(spheres(Kind::cloud, 1, 600, 1), {0}, "600 points searched");
 }
 
 TEST(SpectrumOfMost, TakesCopiesAndPointsThatNothingJoins) {

@@ -140,24 +140,6 @@ TEST_F(ApplicationCommands, CountsAreCheckedBeforeTheBuild) {
   expectRefusal({"filter", cloud, "--normals", "--positions", "--wavelength", "1"}, "--normals", 1);
 }
 
-TEST_F(ApplicationCommands, DistanceFromAFolderIsThatOfABuild) {
-  std::string points = sphere(300);
-  points += points.substr(0, points.find('\n') + 1) + "nan 0 0\n";
-  const std::string cloud = dir_.write("sphere.xyz", points);
-  const std::string mesh = dir_.write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
-  for (const std::string& file : {cloud, mesh}) {
-    std::filesystem::remove_all(in("folder"));
-    run({"laplacian", file, "--format", "npz,ply,cover", "--out", in("folder")});
-    run({"distance", file, "--source", "1", "--out", in("built")});
-    run({"distance", "--operator", in("folder"), "--source", "1", "--out", in("read")});
-    for (const char* name : {"/distance.npy", "/points.ply"})
-      EXPECT_TRUE(readAll(in("built") + name) == readAll(in("read") + name)) << file << name;
-  }
-  run({"distance", "--operator", in("folder"), "--face", "0,1,1,1", "--out", in("face")});
-  run({"laplacian", mesh, "--out", in("folder")});
-  expectRefusal({"distance", "--operator", in("folder"), "--source", "1"}, "--format npz,ply,cover", 1);
-}
-
 TEST_F(ApplicationCommands, OperatorsFromAFolderAreThoseOfABuild) {
   const std::string cloud = dir_.write("sphere.xyz", sphere(300)), mesh = dir_.write("tetrahedron.off", tetrahedron);
   for (const std::string& file : {cloud, mesh}) {
@@ -291,7 +273,7 @@ TEST_F(ApplicationCommands, TellThatTwoPartsAreBadlyJoined) {
       {"poisson", "--values", in("f/green.npy"), "--pin", "0=1"},
       {"green", "--source", "0", "--solver", "multigrid"},
   };
-  for (const double weight : {1e-9, 1e-12, 1e-13}) {
+  for (const double weight : {1e-12}) {
     write(weight);
     for (std::vector<std::string> command : commands) {
       command.insert(command.end(), {"--operator", in("joined"), "--out", in("out"), "--verbose"});
@@ -318,7 +300,7 @@ TEST_F(ApplicationCommands, TellWhichPairIsAllRounding) {
   constexpr int side = 10;
   tufted::Geometry geometry;
   geometry.points = tufted::Points::Random(2 * side * side, 3);
-  for (const double weight : {1.0, 1e-9, 1e-13}) {
+  for (const double weight : {1.0, 1e-13}) {
     tufted::writeLaplacian(in("joined"), tufted::support::joinedGrids(side, {weight}), geometry,
                            {.formats = {tufted::Format::npz}});
     if (weight == 1) run({"green", "--source", "0", "--operator", in("joined"), "--out", in("f")});

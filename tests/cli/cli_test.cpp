@@ -153,21 +153,6 @@ TEST_F(Command, TheGreatestSeedIsTakenAsItIs) {
   EXPECT_NE(readAll(dir_ / "out/report.json").find("\"seed\": " + seed), std::string::npos);
 }
 
-TEST_F(Command, TheInputIsNeverOverwritten) {
-  std::filesystem::create_directory(dir_ / "d");
-  const std::string bytes = "not even a ply";
-  const std::string file = dir_.write("d/points.ply", bytes);
-  std::filesystem::create_symlink(file, dir_ / "link.ply");
-  for (const std::string& input : {file, (dir_ / "d/../d/points.ply").string(), (dir_ / "link.ply").string()}) {
-    const Result result = runTufted({"laplacian", input, "--out", dir_ / "d"});
-    EXPECT_EQ(result.code, 2);
-    EXPECT_EQ(result.err,
-              "tufted: " + input + ": is the input, and --out " + (dir_ / "d").string() + " would overwrite it\n");
-  }
-  EXPECT_EQ(readAll(file), bytes);
-  EXPECT_EQ(runTufted({"laplacian", dir_.write("d/report.json", "{}"), "--out", dir_ / "d"}).code, 2);
-}
-
 TEST_F(Command, PolygonsAndMergedCornersAreStated) {
   const auto polygon = dir_.write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   const Result square = runTufted({"laplacian", polygon, "--out", out()});

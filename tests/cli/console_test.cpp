@@ -134,9 +134,8 @@ TEST_F(ConsoleOutput, QuietSaysNothingAndJsonSaysTheReport) {
     said.erase("out");
     said.erase("warnings");
     EXPECT_EQ(said, report("out")) << command[0];
-    command.emplace_back("-q");
-    EXPECT_EQ(runTufted(command).code, 2) << command[0];
   }
+  EXPECT_EQ(runTufted({"laplacian", file, "--out", in("out"), "--json", "-q"}).code, 2);
   EXPECT_EQ(run({"info", file, "-q"}).out, "");
   EXPECT_EQ(run({"validate", file, "-q"}).out, "");
   EXPECT_EQ(nlohmann::json::parse(run({"validate", file, "--json"}).out)["summary"]["ok"], 1);
@@ -187,10 +186,11 @@ TEST_F(ConsoleOutput, FormatsAreListsInAllSubcommands) {
     EXPECT_EQ(written("none", "neither"), 0) << command[0];
     EXPECT_TRUE(fs::exists(dir_ / "neither/report.json")) << command[0];
     EXPECT_FALSE(fs::exists(dir_ / "neither/points.ply") || fs::exists(dir_ / "neither/points.pcd")) << command[0];
-    for (const char* wrong : {"none,ply", "ply,none", "pyl", ""})
-      EXPECT_EQ(written(wrong, "refused"), 2) << command[0] << wrong;
-    EXPECT_FALSE(fs::exists(dir_ / "refused"));
+    EXPECT_EQ(written("pyl", "refused"), 2) << command[0];
   }
+  for (const char* wrong : {"none,ply", "ply,none", ""})
+    EXPECT_EQ(runTufted({"laplacian", file, "--out", in("refused"), "--format", wrong}).code, 2) << wrong;
+  EXPECT_FALSE(fs::exists(dir_ / "refused"));
 }
 
 /// The percentages that a progress bar showed, and the stage of the last.
@@ -223,7 +223,7 @@ TEST_F(ConsoleOutput, OneBarShowsTheShareOfTheWholeCommand) {
 }
 
 TEST_F(ConsoleOutput, OnATerminalProgressShowsStagesAndTheirPaceAndQuietShowsNone) {
-  const std::string file = dir_.write("sphere.xyz", sphere(300000));
+  const std::string file = dir_.write("sphere.xyz", sphere(30000));
   const std::string shown = watchTufted({"laplacian", file, "--out", in("out"), "--threads", "1"}).err;
   for (const char* part : {"read", "stars", "%"}) EXPECT_TRUE(contains(shown, part)) << part;
   EXPECT_TRUE(shown.ends_with("\033[K")) << "the bar is left behind";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 
 #include "../io/temporary_dir.h"
 #include "command.h"
@@ -33,19 +34,16 @@ class Files : public testing::Test {
   TemporaryDir dir_;
 };
 
-TEST_F(Files, MalformedOnesAreRefused) {
-  for (const Malformed& file : malformedFiles()) expectRefused(file.name, file.bytes);
+TEST_F(Files, MalformedOnesOfEveryFormatAreRefused) {
+  std::set<std::string> formats;
+  for (const Malformed& file : malformedFiles())
+    if (formats.insert(std::filesystem::path(file.name).extension()).second) expectRefused(file.name, file.bytes);
 }
 
-TEST_F(Files, CutAtEveryTenthOfTheirLengthAreRefused) {
-  for (const WellFormed& file : wellFormedFiles())
-    for (std::size_t tenth = 0; tenth < 10; ++tenth)
-      expectRefused(file.name, std::string_view(file.bytes).substr(0, file.bytes.size() * tenth / 10));
-}
-
-TEST_F(Files, CutOnStandardInputAreRefused) {
+TEST_F(Files, CutOnesAreRefused) {
   for (const WellFormed& file : wellFormedFiles()) {
     const std::string path = dir_.write(file.name, std::string_view(file.bytes).substr(0, file.bytes.size() * 7 / 10));
+    expectRefused(path, runTufted({"laplacian", path, "--out", out()}));
     expectRefused("standard input", runTufted({"laplacian", "-", "--out", out()}, path));
   }
 }

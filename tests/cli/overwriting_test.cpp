@@ -36,8 +36,9 @@ TEST_F(Overwriting, ALookThatFailsLeavesFormerResultsAndNothingElse) {
     command.insert(command.end(), {cloud_, "--out", in("out")});
     run(command);
     const auto before = everything();
-    for (const Words& look : {Words{"--png", in("p.png")}, {"--view", in("v.html")}, {"--color", "mass"}}) {
-      if (look[0] == "--color" && command[0] == "denoise") continue;  // it has no mass
+    std::vector<Words> looks = {{"--png", in("p.png")}};
+    if (command[0] == "distance") looks.insert(looks.end(), {{"--view", in("v.html")}, {"--color", "mass"}});
+    for (const Words& look : looks) {
       const Result result = runTufted(with(with(command, look), {"--column", "1000"}));
       EXPECT_EQ(result.code, 2) << command[0];
       EXPECT_TRUE(contains(result.err, "--column 1000: ")) << result.err;
@@ -77,8 +78,6 @@ TEST_F(Overwriting, EveryFieldThatARefusalNamesIsShown) {
       run(with(command, {"--out", in("out"), "--color", name, "--png", in("p.png"), "--size", "40x30"}));
     }
     EXPECT_GT(count, 0) << command[0];
-    // Without --color the first of them is shown.
-    run(with(command, {"--out", in("out"), "--png", in("p.png"), "--size", "40x30"}));
   }
 }
 
@@ -124,6 +123,7 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       {{"parameterize", mesh, "--cut", "INPUT"}, "1 0\n"}};
   std::set<std::string> options;
   for (const Reading& reading : readings) {
+    const bool is_first = &reading == &readings[0];  // all readings ask the same function whether two paths are one
     const auto named = [&](const std::string& input) {
       Words words = reading.words;
       std::replace(words.begin(), words.end(), std::string("INPUT"), input);
@@ -141,7 +141,9 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       const std::string input = dir_.write(std::string("here/input") + ending, reading.text),
                         link = in("link") + ending;
       fs::create_symlink(input, link);
-      for (const std::string& output : {input, in("here/../here/./input") + ending, link}) {
+      std::vector<std::string> outputs = {input};
+      if (is_first) outputs.insert(outputs.end(), {in("here/../here/./input") + ending, link});
+      for (const std::string& output : outputs) {
         expectKept(with(named(input), {"--out", in("new"), option, output}));
         expectKept(with(named(output), {"--out", in("new"), option, input}));
       }
@@ -158,10 +160,12 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
       fs::create_directories(dir_ / "old");
       const std::string input = dir_.write("old/" + name, reading.text);
       expectKept(with(named(input), {"--out", in("old")}));
-      expectKept(with(named(in("here/../old/" + name)), {"--out", in("old/.")}));
-      fs::create_symlink(input, in("link"));
-      expectKept(with(named(in("link")), {"--out", in("old")}));
-      fs::remove(in("link"));
+      if (is_first) {
+        expectKept(with(named(in("here/../old/" + name)), {"--out", in("old/.")}));
+        fs::create_symlink(input, in("link"));
+        expectKept(with(named(in("link")), {"--out", in("old")}));
+        fs::remove(in("link"));
+      }
       fs::remove_all(dir_ / "old");
     }
     fs::remove_all(dir_ / "made");

@@ -29,6 +29,10 @@ class View : public Subcommands {
     EXPECT_TRUE(contains(page.substr(0, 100), "<!doctype html>") || contains(page.substr(0, 100), "<!DOCTYPE html>"));
     EXPECT_TRUE(contains(page.substr(page.size() - 20), "</html>"));
   }
+  /// What `view` says in JSON of a folder, of which it makes a.png.
+  nlohmann::json seen(const std::string& folder) {
+    return nlohmann::json::parse(run({"view", in(folder), "--png", in("a.png"), "--size", "200x150", "--json"}).out);
+  }
   bool exists(const std::string& name) const { return std::filesystem::exists(dir_ / name); }
 
   /// A sphere with a field.
@@ -75,28 +79,29 @@ TEST_F(View, OfAFolderShowsWhatASubcommandWrote) {
   run({"spectrum", cloud_, "--count", "3", "--out", in("modes")});
   run({"view", in("modes")});
   expectPage("modes/view.html");
-  const nlohmann::json said = nlohmann::json::parse(run({"view", in("modes"), "--png", in("a.png"), "--json"}).out);
+  const nlohmann::json said = seen("modes");
   EXPECT_EQ(said["fields"][0], "evecs");
   EXPECT_EQ(said["points"], 200);
   EXPECT_EQ(said["picture"], in("a.png"));
-  run({"view", in("modes"), "--png", in("b.png"), "--column", "2"});
+  run({"view", in("modes"), "--png", in("b.png"), "--column", "2", "--size", "200x150"});
   EXPECT_NE(readAll(dir_ / "a.png"), readAll(dir_ / "b.png"));
   run({"distance", mesh_, "--source", "0", "--out", in("mesh")});
   EXPECT_TRUE(contains(run({"view", in("mesh")}).out, "triangles       4"));
 }
 
 TEST_F(View, OfAFolderShowsNothingOfAnEarlierResult) {
-  const auto seen = [&] { return nlohmann::json::parse(run({"view", in("out"), "--png", in("a.png"), "--json"}).out); };
   run({"spectrum", cloud_, "--count", "3", "--format", "ply,pcd", "--out", in("out")});
   run({"laplacian", cloud_, "--format", "npz,ply,triangles", "--out", in("out")});
   run({"distance", mesh_, "--source", "0", "--format", "pcd", "--out", in("out")});
-  EXPECT_EQ(seen()["points"], 4);
-  EXPECT_EQ(seen()["triangles"], 0);
-  EXPECT_EQ(seen()["fields"], (nlohmann::json{"distance", "mass", "boundary"}));
+  nlohmann::json said = seen("out");
+  EXPECT_EQ(said["points"], 4);
+  EXPECT_EQ(said["triangles"], 0);
+  EXPECT_EQ(said["fields"], (nlohmann::json{"distance", "mass", "boundary"}));
   run({"distance", cloud_, "--source", "0", "--out", in("out")});
-  EXPECT_EQ(seen()["points"], 200);
-  EXPECT_EQ(seen()["triangles"], 0);
-  EXPECT_EQ(seen()["fields"], (nlohmann::json{"distance", "heat", "mass", "boundary"}));
+  said = seen("out");
+  EXPECT_EQ(said["points"], 200);
+  EXPECT_EQ(said["triangles"], 0);
+  EXPECT_EQ(said["fields"], (nlohmann::json{"distance", "heat", "mass", "boundary"}));
   run({"distance", cloud_, "--source", "0", "--format", "none", "--out", in("out")});
   EXPECT_EQ(runTufted({"view", in("out")}).code, 1);
 }
@@ -107,7 +112,7 @@ TEST_F(View, OperatorsAndSpectraAreThoseOfTheLastResult) {
   for (const std::string format : {"npz,ply", "npz,pcd"}) {
     run({"laplacian", cloud_, "--format", format, "--out", in("out")});
     run({"green", "--operator", in("out"), "--source", "0", "--out", in("green")});
-    EXPECT_EQ(nlohmann::json::parse(run({"view", in("green"), "--png", in("a.png"), "--json"}).out)["points"], 200);
+    EXPECT_EQ(seen("green")["points"], 200);
     run({"laplacian", other, "--format", "npz,ply,pcd", "--out", in("out")});
   }
   run({"spectrum", cloud_, "--count", "3", "--out", in("out")});
@@ -156,9 +161,11 @@ TEST_F(View, CopiesOfThePointsHaveColoursAndQuality) {
 }
 
 TEST_F(View, PicturesMayLieInTheFolderThatResultsMake) {
-  run({"distance", cloud_, "--source", "0", "--out", in("new/distance"), "--png", in("new/distance/a.png")});
+  run({"distance", cloud_, "--source", "0", "--out", in("new/distance"), "--png", in("new/distance/a.png"), "--size",
+       "40x30"});
   EXPECT_TRUE(exists("new/distance/a.png"));
-  run({"laplacian", cloud_, "--out", in("new/./a/b/"), "--png", in("new/a/b.png"), "--view", in("new/a/b/c.html")});
+  run({"laplacian", cloud_, "--out", in("new/./a/b/"), "--png", in("new/a/b.png"), "--view", in("new/a/b/c.html"),
+       "--size", "40x30"});
   EXPECT_TRUE(exists("new/a/b.png"));
   EXPECT_TRUE(exists("new/a/b/c.html"));
 }

@@ -63,7 +63,7 @@ TEST_P(GradientsOfFile, AreNoWorseThanPlainFitsOverThirtyPoints) {
   }
   const Eigen::MatrixX3d x = found.X * finite, y = found.Y * finite;
   std::vector<double> errors, plain;
-  const std::size_t stride = std::max<std::size_t>(1, active.size() / 200);
+  const std::size_t stride = std::max<std::size_t>(1, active.size() / 100);
   for (std::size_t k = 0; k < active.size(); k += stride) {
     const int i = active[k];
     Eigen::Matrix<double, 2, 3> slopes, axes;

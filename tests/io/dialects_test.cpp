@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "../support/refusal.h"
 #include "field_values.h"
 #include "malformed_files.h"
 #include "tufted/errors.h"
@@ -19,12 +20,7 @@ using tufted::Geometry;
 const tufted::Points two{{1, 2, 3}, {4, 5, 6}};
 
 std::string refusal(const std::string& bytes, const std::string& name) {
-  try {
-    tufted::parse(bytes, name);
-  } catch (const tufted::IoError& error) {
-    return error.what();
-  }
-  return "";
+  return tufted::support::refusal<tufted::IoError>([&] { tufted::parse(bytes, name); });
 }
 
 std::string upper(std::string text) {

@@ -21,7 +21,7 @@ using tufted::Points;
 
 /// Noisy points of two spheres of unlike size, the finer one first; one is nowhere, and one a copy.
 Points noisySpheres() {
-  constexpr int fine = 3000, coarse = 1200;
+  constexpr int fine = 1500, coarse = 500;
   std::mt19937_64 generator(4);
   const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
   Points points(fine + coarse, 3);
@@ -30,7 +30,7 @@ Points noisySpheres() {
     double noise = 0;  // nearly normal
     for (int k = 0; k < 12; ++k) noise += uniform() - 0.5;
     points.row(i) << r * std::cos(angle), r * std::sin(angle), z;
-    points.row(i) *= 1 + 0.015 * noise;
+    points.row(i) *= 1 + 0.02 * noise;
     if (i >= fine) points.row(i) = 20 * points.row(i) + Eigen::RowVector3d(50, 0, 0);
   }
   points.row(70) = points.row(5);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "../support/refusal.h"
 #include "field_values.h"
 #include "las_file.h"
 #include "temporary_dir.h"
@@ -14,12 +15,7 @@ tufted::Geometry parse(const LasFile& file) {
 }
 
 std::string refusal(const LasFile& file) {
-  try {
-    parse(file);
-  } catch (const tufted::IoError& error) {
-    return error.what();
-  }
-  return "was read";
+  return tufted::support::refusal<tufted::IoError>([&] { parse(file); });
 }
 
 template <class T>

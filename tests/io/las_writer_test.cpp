@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "../support/refusal.h"
 #include "field_values.h"
 #include "las_file.h"
 #include "temporary_dir.h"
@@ -27,12 +28,7 @@ class LasOutput : public testing::Test {
   }
 
   std::string refusal(const tufted::Geometry& geometry, const std::vector<tufted::ResultArray>& arrays = {}) {
-    try {
-      written(geometry, arrays);
-    } catch (const tufted::InvalidInput& error) {
-      return error.what();
-    }
-    return "was written";
+    return tufted::support::refusal([&] { written(geometry, arrays); });
   }
 
   TemporaryDir dir_;

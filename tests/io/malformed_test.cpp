@@ -5,6 +5,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "../support/refusal.h"
 #include "malformed_files.h"
 #include "temporary_dir.h"
 #include "tufted/errors.h"
@@ -43,12 +44,7 @@ INSTANTIATE_TEST_SUITE_P(All, MalformedFile, testing::ValuesIn(malformedFiles())
 });
 
 std::string refusal(const std::filesystem::path& path, tufted::ReadAs as = tufted::ReadAs::automatic) {
-  try {
-    tufted::read(path, as);
-  } catch (const tufted::IoError& error) {
-    return error.what();
-  }
-  return "";
+  return tufted::support::refusal<tufted::IoError>([&] { tufted::read(path, as); });
 }
 
 TEST(Read, WhatIsNoRegularFileIsRefused) {

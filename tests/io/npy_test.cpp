@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "../support/refusal.h"
 #include "field_values.h"
 #include "temporary_dir.h"
 #include "tufted/errors.h"
@@ -39,12 +40,7 @@ std::string packed(const std::vector<double>& values, bool swapped = false) {
 }
 
 std::string refusal(const std::string& bytes) {
-  try {
-    tufted::parse(bytes, "a.npy");
-  } catch (const tufted::IoError& error) {
-    return error.what();
-  }
-  return "";
+  return tufted::support::refusal<tufted::IoError>([&] { tufted::parse(bytes, "a.npy"); });
 }
 
 TEST(Npy, HoldsPointsOfEveryRealType) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 
+#include "../support/refusal.h"
 #include "las_file.h"
 #include "temporary_dir.h"
 #include "tufted/errors.h"
@@ -117,12 +118,7 @@ bool areSame(const Points& a, const Points& b) {  // NaN included
 }
 
 std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "was accepted";
+  return tufted::support::refusal<std::exception>(call);
 }
 
 /// The points that a pass gives.

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <random>
 
+#include "../support/refusal.h"
 #include "field_values.h"
 #include "las_file.h"
 #include "temporary_dir.h"
@@ -37,12 +38,7 @@ std::vector<int> kept(Geometry geometry, const std::string& comparison) {
 }
 
 std::string refusal(Geometry geometry, const tufted::Selection& selection) {
-  try {
-    tufted::select(geometry, selection);
-  } catch (const tufted::InvalidInput& error) {
-    return error.what();
-  }
-  return "was accepted";
+  return tufted::support::refusal([&] { tufted::select(geometry, selection); });
 }
 
 /// Four points with two fields in a format that stores them as text.

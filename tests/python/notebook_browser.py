@@ -78,7 +78,8 @@ def check(page, name, count, picture):
     assert width > 600 and height == 480, (width, height)
     places, behind = places_of(page, frame, list(range(0, count, 7)))
     assert len(places) > count / 14, f"of {count // 7} points of the {name} {len(places)} can be seen"
-    time.sleep(0.2)  # until the frame has been put onto the page
+    # Until the frame has been put onto the page.
+    page.run("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
     _, _, color = pixels_of(page.screenshot(picture))
     differ = [max(abs(a - b) for a, b in zip(color(left + x, top + y), behind)) > 25 for x, y in places]
     assert sum(differ) > 0.95 * len(places), \

@@ -6,12 +6,12 @@
 
 namespace tufted::support {
 
-/// The message of the InvalidInput that a call throws, or "accepted".
-template <class Call>
+/// The message of the Error that a call throws, or "accepted".
+template <class Error = InvalidInput, class Call>
 std::string refusal(const Call& call) {
   try {
     call();
-  } catch (const InvalidInput& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "accepted";
