@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -123,22 +124,41 @@ struct LogMap {
   VectorHeatReport report;       ///< work, accuracy and time
 };
 
-/// The logarithmic map: for each point, the direction at the source and the length of the shortest path to it (Sharp,
-/// Soliman, Crane 2019, Section 8.2). The distance is that of DistanceSolver. The angle is that between two transported
-/// fields: the axes at the source, and the directions away from it. The latter start in a ring some spacings around the
-/// source, where they are measured in its tangent plane: at its next neighbours they would depend on where these happen
-/// to lie. Factored once, queried often; queries may run in parallel.
+/// How logarithmic maps are computed.
+enum class LogMapMethod : std::uint8_t {
+  exact,  ///< shortest paths over the triangles, exact to rounding; a query takes time that grows with N^1.5
+  heat,   ///< the vector heat method: fast queries on millions of points, but angles are off by some degrees
+};
+
+/// Options of LogMapSolver.
+struct LogMapOptions {
+  LogMapMethod method = LogMapMethod::exact;  ///< how the map is computed
+  double time_step = 4;                       ///< heat: see VectorHeatOptions
+  SolverOptions solver = {};                  ///< heat: how systems are solved
+};
+
+/// The logarithmic map: for each point, the direction at the source and the length of the shortest path to it. Prepared
+/// once, queried often; queries may run in parallel.
+///
+/// Exact: paths are those of PathSolver on a mesh, on its cover, and of a cloud on surfaceTriangles(). GeodesicTracer
+/// follows a path back to its point where no saddle lies on the way, and passes beside it where one does: no straight
+/// line leads there. Points in no triangle get the direction of a neighbour.
+///
+/// Heat (Sharp, Soliman, Crane 2019, Section 8.2): the distance is that of DistanceSolver, the angle that between two
+/// transported fields: the axes at the source, and the directions away from it. The latter start in a ring some
+/// spacings around the source, where they are measured in its tangent plane: at its next neighbours they would depend
+/// on where these happen to lie.
 class LogMapSolver {
  public:
   /// @param laplacian with its cover, positions and frames, as a cloud's; not needed after construction
   /// @throws InvalidInput, SolverFailure and Cancelled as TransportSolver(), and InvalidInput if there is no cover
-  explicit LogMapSolver(const Laplacian& laplacian, const VectorHeatOptions& options = {});
+  explicit LogMapSolver(const Laplacian& laplacian, const LogMapOptions& options = {});
   /// This constructor takes frames of the caller, on meshes those of meshFrames(), in place of Laplacian::frames.
-  LogMapSolver(const Laplacian& laplacian, const Frames& frames, const VectorHeatOptions& options = {});
+  LogMapSolver(const Laplacian& laplacian, const Frames& frames, const LogMapOptions& options = {});
 
   /// Computes the coordinates of all points: 0 at the source; NaN where no path leads and at isolated and non-finite
-  /// points; coincident points as their representative. Next to the cut locus, where several shortest paths meet,
-  /// angles are mixed.
+  /// points; coincident points as their representative. At the cut locus, where several paths are equally short, exact
+  /// angles are those of one of them; those of heat are mixed near there.
   /// @param source index of an active point
   /// @param axis direction of the first coordinate, projected into the tangent plane of the source; 0: the frame's
   /// tangent
@@ -149,7 +169,7 @@ class LogMapSolver {
   LogMap query(int source, const Eigen::RowVector3d& axis = Eigen::RowVector3d::Zero(),
                const Progress& progress = {}) const;
 
-  /// How the constructor factored its systems, summed over them.
+  /// Heat: how the constructor factored its systems, summed over them. Exact: method "exact", and its memory.
   const SolverReport& report() const;
 
   /// A moved-from solver may only be destroyed or assigned to.

@@ -1,18 +1,25 @@
-// The logarithmic map (Sharp, Soliman, Crane: "The vector heat method", 2019, Section 8.2).
+// LogMapSolver: exact paths, or vector heat (Sharp, Soliman, Crane: "The vector heat method", 2019, Section 8.2).
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "algorithms/check_positions.h"
+#include "algorithms/connected.h"
 #include "algorithms/connection.h"
+#include "algorithms/exact_log_map.h"
 #include "algorithms/heat_sources.h"
+#include "algorithms/heat_time.h"
 #include "algorithms/memory_limit.h"
 #include "algorithms/vector_heat.h"
 #include "base/stage_clock.h"
+#include "operators/check_cover.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
 #include "tufted/vector_heat.h"
@@ -37,16 +44,14 @@ double ringWeight(double distance) {
   return inner * inner;
 }
 
-}  // namespace
-
-struct LogMapSolver::State {
+/// The map by vector heat.
+struct HeatLogMap {
   SparseMatrix L;
   VectorXd M;
   Points positions;
   Frames frames;
   DistanceSolver distance;
   FieldHeat heat;
-  SolverReport report;
 
   /// The offset of a point from the source, in the source's frame and units of spacingAt().
   Eigen::Vector2d inPlane(int source, int point) const;
@@ -55,39 +60,26 @@ struct LogMapSolver::State {
   /// The fields to transport, as columns: directions away from the source, and the two axes at the source.
   /// @param first the first axis, a unit vector in the frame of the source
   HeatFields startingFields(int source, const std::vector<int>& disc, const Eigen::Vector2d& first) const;
+  /// The coordinates of all points.
+  /// @param first the first axis, a unit vector in the frame of the source
+  Eigen::MatrixX2d query(int source, const Eigen::Vector2d& first, VectorHeatReport& report,
+                         const Progress& progress) const;
 };
 
-LogMapSolver::LogMapSolver(LogMapSolver&&) noexcept = default;
-LogMapSolver& LogMapSolver::operator=(LogMapSolver&&) noexcept = default;
-LogMapSolver::~LogMapSolver() = default;
-
-LogMapSolver::LogMapSolver(const Laplacian& laplacian, const VectorHeatOptions& options)
-    : LogMapSolver(laplacian, laplacian.frames, options) {}
-
-LogMapSolver::LogMapSolver(const Laplacian& laplacian, const Frames& frames, const VectorHeatOptions& options) {
-  checkFrames(constructor, laplacian, frames);
-  if (!laplacian.hasCover())
-    throw InvalidInput(std::string(constructor) + ": the Laplacian has no cover, must have one: keep_cover = true");
-  const Stopwatch watch;
+HeatLogMap heatLogMap(const Laplacian& laplacian, const Frames& frames, const LogMapOptions& options) {
   DistanceSolver distance(laplacian, {.solver = options.solver});
-  FieldHeat heat(constructor, laplacian, &frames, options, memoryLimit(options.solver.memory_limit));
-  SolverReport report = heat.report();
-  report.seconds = watch.seconds();
-  state_.reset(new State{laplacian.L, laplacian.M, laplacian.positions, frames, std::move(distance), std::move(heat),
-                         std::move(report)});
+  FieldHeat heat(constructor, laplacian, &frames, {.time_step = options.time_step, .solver = options.solver},
+                 memoryLimit(options.solver.memory_limit));
+  return {laplacian.L, laplacian.M, laplacian.positions, frames, std::move(distance), std::move(heat)};
 }
 
-const SolverReport& LogMapSolver::report() const {
-  return state_->report;
-}
-
-Eigen::Vector2d LogMapSolver::State::inPlane(int source, int point) const {
+Eigen::Vector2d HeatLogMap::inPlane(int source, int point) const {
   const Eigen::RowVector3d offset = (positions.row(point) - positions.row(source)) / heat.spacingAt(source);
   const Eigen::RowVector3d normal = frames.normals.row(source), x = frames.tangents.row(source);
   return {x.dot(offset), normal.cross(x).dot(offset)};
 }
 
-std::vector<int> LogMapSolver::State::disc(int source) const {
+std::vector<int> HeatLogMap::disc(int source) const {
   std::vector<std::uint8_t> seen(heat.size(), 0);
   std::vector<int> points = {source};
   seen[source] = 1;
@@ -104,8 +96,7 @@ std::vector<int> LogMapSolver::State::disc(int source) const {
   return points;
 }
 
-HeatFields LogMapSolver::State::startingFields(int source, const std::vector<int>& disc,
-                                               const Eigen::Vector2d& first) const {
+HeatFields HeatLogMap::startingFields(int source, const std::vector<int>& disc, const Eigen::Vector2d& first) const {
   const Eigen::Index n = heat.size();
   HeatFields start{Eigen::MatrixXd::Zero(n, 1), Eigen::MatrixXd::Zero(2 * n, 3)};
   start.scalars(source, 0) = 1;
@@ -124,12 +115,81 @@ HeatFields LogMapSolver::State::startingFields(int source, const std::vector<int
   return start;
 }
 
+Eigen::MatrixX2d HeatLogMap::query(int source, const Eigen::Vector2d& first, VectorHeatReport& report,
+                                   const Progress& progress) const {
+  const VectorXd lengths = distance.query({source}, nullptr, progress);
+  const std::vector<int> near = disc(source);
+  const HeatFields found = heat.spread(query_name, startingFields(source, near, first), report, progress);
+  Eigen::MatrixX2d coordinates(lengths.size(), 2);
+  for (int i = 0; i < lengths.size(); ++i) {
+    const auto field = [&](int column) { return found.vectors.col(column).segment<2>(2 * Eigen::Index{i}); };
+    const Eigen::Vector2d direction(field(0).dot(field(1)), field(0).dot(field(2)));
+    coordinates.row(i) = lengths[i] * direction.normalized();
+  }
+  for (const int p : near) {
+    const Eigen::Vector2d place = inPlane(source, p);
+    if (!(place.norm() > 0 && place.norm() <= ring_begin)) continue;
+    const Eigen::Vector2d direction(place.dot(first), first[0] * place[1] - first[1] * place[0]);
+    coordinates.row(p) = lengths[p] * direction.normalized();
+  }
+  return coordinates;
+}
+
+}  // namespace
+
+struct LogMapSolver::State {
+  Frames frames;
+  std::vector<int> representative;
+  std::vector<PointStatus> status;
+  std::optional<ExactLogMap> exact;
+  std::optional<HeatLogMap> heat;
+  SolverReport report;
+};
+
+LogMapSolver::LogMapSolver(LogMapSolver&&) noexcept = default;
+LogMapSolver& LogMapSolver::operator=(LogMapSolver&&) noexcept = default;
+LogMapSolver::~LogMapSolver() = default;
+
+LogMapSolver::LogMapSolver(const Laplacian& laplacian, const LogMapOptions& options)
+    : LogMapSolver(laplacian, laplacian.frames, options) {}
+
+LogMapSolver::LogMapSolver(const Laplacian& laplacian, const Frames& frames, const LogMapOptions& options) {
+  checkFrames(constructor, laplacian, frames);
+  checkHeatTime(constructor, options.time_step);
+  if (!laplacian.hasCover())
+    throw InvalidInput(std::string(constructor) + ": the Laplacian has no cover, must have one: keep_cover = true");
+  checkCover(constructor, laplacian);
+  const Stopwatch watch;
+  auto state = std::make_unique<State>();
+  state->frames = frames;
+  state->representative = laplacian.representative;
+  state->status = laplacian.status;
+  if (options.method == LogMapMethod::heat) {
+    state->report = state->heat.emplace(heatLogMap(laplacian, frames, options)).heat.report();
+  } else {
+    state->exact.emplace(laplacian, frames);
+    state->report.method = "exact";
+    state->report.unknowns = std::ssize(state->status);
+    state->report.bytes = state->exact->bytes();
+  }
+  state->report.seconds = watch.seconds();
+  state_ = std::move(state);
+}
+
+const SolverReport& LogMapSolver::report() const {
+  return state_->report;
+}
+
 LogMap LogMapSolver::query(int source, const Eigen::RowVector3d& axis, const Progress& progress) const {
   const Stopwatch watch;
   const State& state = *state_;
   const std::string name = std::string(query_name) + ": ";
-  const int s = state.heat.place(query_name, source);
-  if (s < 0) throw InvalidInput(name + state.heat.whyIgnored(source) + ", lies on no component, must be active");
+  const auto n = static_cast<int>(state.status.size());
+  if (source < 0 || source >= n)
+    throw InvalidInput(name + "source " + std::to_string(source) + ", must lie in [0, " + std::to_string(n) + ")");
+  const int s = state.representative[source];
+  if (state.status[s] != PointStatus::active)
+    throw InvalidInput(name + whyOnNone("source", source, state.status[s]) + ", lies on no component, must be active");
   if (!axis.allFinite()) throw InvalidInput(name + "axis is not finite, must be");
   Eigen::Vector2d first = inTangentPlane(name + "axis", state.frames, s, axis);
   first = first.norm() > 0 ? Eigen::Vector2d(first.stableNormalized()) : Eigen::Vector2d::UnitX();
@@ -137,24 +197,20 @@ LogMap LogMapSolver::query(int source, const Eigen::RowVector3d& axis, const Pro
   LogMap map;
   map.first = first[0] * x + first[1] * y;
   map.second = first[0] * y - first[1] * x;
-
-  const VectorXd distance = state.distance.query({s}, nullptr, progress);
-  const std::vector<int> disc = state.disc(s);
-  const HeatFields found = state.heat.spread(query_name, state.startingFields(s, disc, first), map.report, progress);
-  map.coordinates.resize(distance.size(), 2);
-  for (int i = 0; i < distance.size(); ++i) {
-    const auto field = [&](int column) { return found.vectors.col(column).segment<2>(2 * Eigen::Index{i}); };
-    const Eigen::Vector2d direction(field(0).dot(field(1)), field(0).dot(field(2)));
-    map.coordinates.row(i) = distance[i] * direction.normalized();
-  }
-  for (const int p : disc) {
-    const Eigen::Vector2d place = state.inPlane(s, p);
-    if (!(place.norm() > 0 && place.norm() <= ring_begin)) continue;
-    const Eigen::Vector2d direction(place.dot(first), first[0] * place[1] - first[1] * place[0]);
-    map.coordinates.row(p) = distance[p] * direction.normalized();
+  if (state.exact) {
+    const auto [distance, angle] = state.exact->query(s, progress);
+    const double begin = std::atan2(first[1], first[0]);
+    map.coordinates.resize(n, 2);
+    for (int i = 0; i < n; ++i) {
+      const bool is_reached = std::isfinite(distance[i]);
+      const double length = is_reached ? distance[i] : std::numeric_limits<double>::quiet_NaN();
+      map.coordinates.row(i) << length * std::cos(angle[i] - begin), length * std::sin(angle[i] - begin);
+    }
+  } else {
+    map.coordinates = state.heat->query(s, first, map.report, progress);
   }
   map.coordinates.row(s).setZero();
-  state.heat.copyToCoincident(map.coordinates);
+  for (int i = 0; i < n; ++i) map.coordinates.row(i) = map.coordinates.row(state.representative[i]).eval();
   map.report.seconds = watch.seconds();
   return map;
 }

@@ -54,6 +54,19 @@ SignedDistanceSolver signedSolverOf(const Laplacian& laplacian, Points normals, 
   });
 }
 
+LogMapSolver logMapSolverOf(const Laplacian& laplacian, Points normals, Points tangents, const std::string& method,
+                            double time_step, const Solving& solving, const py::object& progress) {
+  const Frames frames = framesFrom(std::move(normals), std::move(tangents));
+  LogMapOptions options = {
+      .method = chosen<LogMapMethod>("log_map: method", method,
+                                     {{"exact", LogMapMethod::exact}, {"heat", LogMapMethod::heat}}),
+      .time_step = time_step};
+  return run(progress, [&](const Progress& called) {
+    options.solver = solving.options(called);
+    return LogMapSolver(laplacian, frames, options);
+  });
+}
+
 }  // namespace
 
 void addVectorHeat(py::module_& module) {
@@ -76,7 +89,7 @@ void addVectorHeat(py::module_& module) {
         return run(progress, [&](const Progress& called) { return solver.query(indices, vectors, nullptr, called); });
       });
   py::class_<LogMapSolver>(module, "LogMapSolver")
-      .def(withFrames<LogMapSolver>())
+      .def(py::init(&logMapSolverOf))
       .def("query",
            [](const LogMapSolver& solver, int source, const Eigen::RowVector3d& axis, const py::object& progress) {
              LogMap map = run(progress, [&](const Progress& called) { return solver.query(source, axis, called); });

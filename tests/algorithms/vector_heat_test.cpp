@@ -143,11 +143,13 @@ TEST(Extension, StaysWithinTheValuesAndIsThatOfTheNearest) {
   EXPECT_GE(right, clear * 0.99);
 }
 
+const LogMapOptions by_heat = {.method = LogMapMethod::heat};
+
 /// Errors of the logarithmic map on the unit sphere at distances of 0.3 to 2.5: mean angle in radians, mean distance.
 Eigen::Vector2d logMapErrors(int n) {
   const Points points = shapes::sphere(n).points;
   const Laplacian laplacian = pointCloudLaplacian(points);
-  const LogMapSolver solver(laplacian, halfTurned(laplacian.frames));
+  const LogMapSolver solver(laplacian, halfTurned(laplacian.frames), by_heat);
   const int source = 7;
   const Eigen::RowVector3d start = points.row(source);
   const LogMap map = solver.query(source);
@@ -179,7 +181,7 @@ TEST(LogMap, OfAPlaneIsThePlane) {
   const Points points = shapes::square(10000).points;
   int source = 0;
   (points.rowwise() - points.colwise().mean()).rowwise().norm().minCoeff(&source);
-  const LogMap map = LogMapSolver(pointCloudLaplacian(points)).query(source, {1, 1, 0});
+  const LogMap map = LogMapSolver(pointCloudLaplacian(points), by_heat).query(source, {1, 1, 0});
   EXPECT_NEAR(map.first.dot(Eigen::RowVector3d(1, 1, 0)), std::sqrt(2), 1e-9);
   double sum = 0;
   for (int i = 0; i < 10000; ++i) {
@@ -195,7 +197,7 @@ TEST(LogMap, OfAPlaneIsThePlane) {
 TEST(LogMap, OfAMesh) {
   const shapes::Mesh ball = shapes::icosphere(4);
   const Laplacian laplacian = meshLaplacian(ball.points, ball.triangles);
-  const LogMap map = LogMapSolver(laplacian, meshFrames(ball.points, ball.triangles)).query(0);
+  const LogMap map = LogMapSolver(laplacian, meshFrames(ball.points, ball.triangles), by_heat).query(0);
   double sum = 0;
   for (Eigen::Index i = 1; i < ball.points.rows(); ++i) {
     const double angle = std::atan2(ball.points.row(i).dot(map.second), ball.points.row(i).dot(map.first));
@@ -210,6 +212,8 @@ TEST(VectorHeat, OfOddPointsIsDefined) {
   const Points vectors = TransportSolver(laplacian).query({1, 2003}, rows({{1, 2, 3}, {1, 1, 1}}));
   const Eigen::MatrixXd values = ExtensionSolver(laplacian).query({1, 2002}, Eigen::Vector2d(1, 2));
   const Eigen::MatrixXd map = LogMapSolver(laplacian).query(2000).coordinates;
+  EXPECT_EQ(LogMapSolver(laplacian, by_heat).query(2000).coordinates.array().isNaN().cast<int>().matrix(),
+            map.array().isNaN().cast<int>().matrix());
   EXPECT_TRUE(vectors.allFinite());
   for (const int i : {2002, 2003, 1700}) {
     EXPECT_TRUE(vectors.row(i).isZero(0)) << i;
@@ -221,6 +225,7 @@ TEST(VectorHeat, OfOddPointsIsDefined) {
   for (const int n : {3, 4, 6}) {
     const Laplacian few = pointCloudLaplacian(shapes::sphere(n).points);
     EXPECT_TRUE(LogMapSolver(few).query(0).coordinates.allFinite());
+    EXPECT_TRUE(LogMapSolver(few, by_heat).query(0).coordinates.allFinite());
     EXPECT_TRUE(TransportSolver(few).query({0}, few.frames.tangents.topRows(1)).allFinite());
   }
 }
@@ -255,7 +260,7 @@ TEST(VectorHeat, RefusesWhatDoesNotFit) {
     const VectorHeatOptions options{.time_step = step};
     EXPECT_TRUE(says(refusal([&] { TransportSolver(laplacian, options); }))) << step;
     EXPECT_TRUE(says(refusal([&] { ExtensionSolver(laplacian, options); }))) << step;
-    EXPECT_TRUE(says(refusal([&] { LogMapSolver(laplacian, options); }))) << step;
+    EXPECT_TRUE(says(refusal([&] { LogMapSolver(laplacian, {.time_step = step}); }))) << step;
     EXPECT_TRUE(says(refusal([&] { SignedDistanceSolver(laplacian, {.time_step = step}); }))) << step;
     EXPECT_TRUE(says(refusal([&] { DistanceSolver(laplacian, {.method = DistanceMethod::heat, .time_step = step}); })))
         << step;

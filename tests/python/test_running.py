@@ -133,7 +133,7 @@ SETTINGS = {  # methods that keep what is costly, each with settings of which ev
     "nearest_source": lambda mesh, i: mesh.nearest_source([0, 9], maximum=1 + 0.1 * i),
     "extend": lambda mesh, i: mesh.extend([0, 9], [1.0, 2.0], time_step=1 + 0.1 * i),
     "transport": lambda mesh, i: mesh.transport(0, [1, 2, 3], time_step=1 + 0.1 * i),
-    "log_map": lambda mesh, i: mesh.log_map(0, time_step=1 + 0.1 * i),
+    "log_map": lambda mesh, i: mesh.log_map(0, method="heat", time_step=1 + 0.1 * i),
     "signed_distance": lambda mesh, i: mesh.signed_distance([0, 20, 40], time_step=1 + 0.1 * i),
     "harmonic": lambda mesh, i: mesh.harmonic({0: 1.0, 9 + i: 2.0}),
     "poisson": lambda mesh, i: mesh.poisson(mesh.M, {0: 1.0, 9 + i: 2.0}),

@@ -104,7 +104,12 @@ inline std::vector<Algorithm> algorithms(int threads = 0, double unit = 1) {
            }},
           {"logarithmic map", true, 1, NAN,
            [=](const Laplacian& laplacian, const Points&) -> MatrixXd {
-             return LogMapSolver(laplacian, vector_heat).query(3, {1, 2, 3}).coordinates.cwiseAbs();
+             return LogMapSolver(laplacian).query(3, {1, 2, 3}).coordinates.cwiseAbs();
+           }},
+          {"logarithmic map by heat", true, 1, NAN,
+           [=](const Laplacian& laplacian, const Points&) -> MatrixXd {
+             const LogMapOptions options = {.method = LogMapMethod::heat, .solver = solver};
+             return LogMapSolver(laplacian, options).query(3, {1, 2, 3}).coordinates.cwiseAbs();
            }},
           {"signed distance", true, 1, NAN,
            [=](const Laplacian& laplacian, const Points&) -> MatrixXd {

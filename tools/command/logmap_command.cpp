@@ -1,9 +1,11 @@
 #include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "command.h"
 #include "operator.h"
+#include "options.h"
 #include "oriented.h"
 #include "point_options.h"
 #include "reports.h"
@@ -24,20 +26,26 @@ The two coordinates of a point are its geodesic distance from the source, in the
 leaves the source. The first axis is --axis, projected to the tangent plane of the source; without --axis it is any
 tangent. The second axis is perpendicular to the first, counterclockwise seen from the normal of `tufted normals`.
 
+  exact  shortest paths over the triangles, exact to rounding, in a time that grows with N^1.5
+  heat   the vector heat method, for millions of points: angles are off by some degrees
+
 Files in DIR, which replace older ones when all are complete:
   logmap.npy   N x 2, float64, in the unit of FILE; 0, 0 at the source, NaN where no path leads
   points.ply   the points with the fields logmap_0 and logmap_1, float32; points.pcd with --format pcd
-  report.json  source, axes, rounds, residual, backward error, seconds
+  report.json  source, axes, method, seconds; with --method heat also rounds, residual, backward error
 `tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
 `tufted laplacian --format npz,ply,cover --out DIR` wrote: distances
 need the triangles of the cover.)";
+
+const std::map<std::string, tufted::LogMapMethod> methods = {{"exact", tufted::LogMapMethod::exact},
+                                                             {"heat", tufted::LogMapMethod::heat}};
 
 struct Settings {
   OperatorSettings source;
   Orienting orienting;
   NamedPoints points;
   std::string axis_text;
-  tufted::VectorHeatOptions options;
+  tufted::LogMapOptions options;
   std::vector<Place> places;
   Eigen::RowVector3d axis = Eigen::RowVector3d::Zero();
 
@@ -68,7 +76,14 @@ Results compute(Settings& settings, Operator& source) {
   results.report["axes"] = {direction(map.first), direction(map.second)};
   results.summary.add("first axis", "%.6g, %.6g, %.6g", map.first[0], map.first[1], map.first[2]);
   results.summary.add("second axis", "%.6g, %.6g, %.6g", map.second[0], map.second[1], map.second[2]);
-  addReport(map.report, solver.report(), results);
+  const bool is_heat = settings.options.method == tufted::LogMapMethod::heat;
+  results.report["method"] = is_heat ? "heat" : "exact";
+  if (is_heat) {
+    addReport(map.report, solver.report(), results);
+  } else {
+    results.report["report"] = {{"seconds", map.report.seconds}};
+    results.summary.addDetail("query", "shortest paths over the triangles, %.3g s", map.report.seconds);
+  }
   results.summary.add("not reached", "%lld points, which are NaN",
                       static_cast<long long>(map.coordinates.col(0).array().isNaN().count()));
   results.arrays = {{.name = "logmap", .values = map.coordinates}};
@@ -88,4 +103,6 @@ void addLogmap(CLI::App& app, Run& run) {
   command
       ->add_option("--axis", settings->axis_text, "Direction of the first coordinate axis at the source (any tangent)")
       ->type_name("X,Y,Z");
+  addChoice(*command, "--method", settings->options.method, methods,
+            "exact: shortest paths; heat: less accurate, for millions of points (exact)");
 }

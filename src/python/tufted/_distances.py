@@ -235,13 +235,15 @@ class Distances:
             self._laplacian, *self._frame_parts(), time_step, self._solver(), progress), time_step)
         return solver.query(where, vectors, progress)
 
-    def log_map(self, source, *, axis=None, time_step=4.0, progress=None):
+    def log_map(self, source, *, axis=None, method="exact", time_step=None, progress=None):
         """The logarithmic map: the direction at a source, and the distance from it, in which every point lies.
 
         source: index of an active point.
         axis: direction of the first coordinate, 3 values; None: the tangent at the source, of frames with the normals
         of normals().
-        time_step: as in extend().
+        method: "exact", shortest paths over the triangles, exact to rounding, in a time that grows with N^1.5, or "heat",
+        the vector heat method: fast queries on millions of points, but angles are off by some degrees.
+        time_step: of heat, as in extend(); None: 4.
         Returns coordinates (N x 2, distance times cosine and sine of the angle; NaN where no path leads) and axes (2 x
         3, the directions of the coordinates at the source).
         """
@@ -249,11 +251,13 @@ class Distances:
         if where.size != 1:
             raise InvalidInput(f"log_map: source has {where.size} indices, must be one")
         self._need_cover("log_map")
-        time_step = check.number("log_map", "time_step", time_step)
+        if method == "exact" and time_step is not None:
+            raise InvalidInput(f'log_map: time_step = {time_step!r}, must be None unless method is "heat"')
+        time_step = 4.0 if time_step is None else check.number("log_map", "time_step", time_step)
         progress = check.callback("log_map", progress)
         axis = np.zeros(3) if axis is None else check.vector_of_three("log_map", "axis", axis)
         solver = self._keep("log_map", lambda: _tufted.LogMapSolver(
-            self._laplacian, *self._signed_frames(), time_step, self._solver(), progress), time_step)
+            self._laplacian, *self._signed_frames(), method, time_step, self._solver(), progress), (method, time_step))
         coordinates, first, second = solver.query(int(where[0]), axis, progress)
         return LogMap(coordinates, np.vstack([first, second]))
 

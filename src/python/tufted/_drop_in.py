@@ -8,7 +8,7 @@ from ._clouds import Mesh, PointCloud
 from ._tufted import InvalidInput
 
 # The defaults of `time_step` that `t_coef` multiplies: of Surface.distance(), in mean squared edge lengths, and of
-# extend(), transport(), log_map() and signed_distance(), in mean squared distances of neighbours.
+# extend(), transport() and signed_distance(), in mean squared distances of neighbours.
 _DISTANCE_STEP, VECTOR_STEP = 0.5, 4.0
 
 
@@ -123,7 +123,7 @@ class _Vectors(_HeatSolver):
             raise InvalidInput(f"compute_log_map: {name} has {where.size} indices, must be one")
         source = where[0]
         x, y = surface.frames[source, :2]
-        coordinates, axes = surface.log_map(source, axis=x, time_step=VECTOR_STEP * self._t_coef)
+        coordinates, axes = surface.log_map(source, axis=x)
         return coordinates * [1.0, np.sign(axes[1] @ y)]  # negated where log_map() turned the normal
 
 

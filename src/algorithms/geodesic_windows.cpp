@@ -1,0 +1,261 @@
+#include "algorithms/geodesic_windows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "algorithms/apex.h"
+#include "base/cross.h"
+#include "cover/geometry.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// A vertex no farther from a line than this, in the unit of the lengths, counts as on it. Rounding moves lines by
+/// less.
+constexpr double on_line = 1e-11;
+/// Paths bend by more than this, radians: rounding of the angles around a vertex is less.
+constexpr double least_bend = 1e-9;
+/// Windows between two calls of `progress`.
+constexpr std::int64_t between_reports = 65536;
+
+Vector2d polar(double length, double angle) {
+  return length * Vector2d(std::cos(angle), std::sin(angle));
+}
+
+/// The angle between two directions, radians.
+double between(const Vector2d& a, const Vector2d& b) {
+  return std::atan2(std::abs(cross(a, b)), a.dot(b));
+}
+
+}  // namespace
+
+GeodesicWindows::GeodesicWindows(const IntrinsicTriangulation& surface, int exponent, int source,
+                                 const Workers& workers)
+    : surface_(surface),
+      unit_(std::ldexp(1.0, exponent)),
+      distance_(static_cast<std::size_t>(surface.vertices), infinity),
+      turn_(distance_.size(), 0),
+      arrival_(distance_.size()),
+      offset_(distance_.size() + 1, 0),
+      sides_(surface.glue.size()),
+      nearest_(surface.glue.size()) {
+  for (const auto& corners : surface.faces)
+    for (const int corner : corners) ++offset_[corner + 1];
+  std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
+  std::vector<int> fill(offset_.begin(), offset_.end() - 1);
+  for (int side = 0; side < std::ssize(sides_); ++side) sides_[fill[tail(surface, side)]++] = side;
+  distance_[source] = 0;
+  sectors_ = sectorsAt(source);
+  leaveSource();
+  std::int64_t done = 0;
+  while (!windows_.empty() || !bends_.empty()) {
+    if (!bends_.empty() && (windows_.empty() || bends_.top().key <= windows_.top().key)) {
+      const Bend next = bends_.top();
+      bends_.pop();
+      if (next.key == distance_[next.vertex]) bend(next.vertex);
+      continue;
+    }
+    const Window window = windows_.top();
+    windows_.pop();
+    cross(window);
+    if (done++ % between_reports == 0) workers.report("windows", 0);
+  }
+}
+
+std::vector<Sector> GeodesicWindows::sectorsAt(int vertex) const {
+  const auto begin = sides_.begin() + offset_[vertex], end = sides_.begin() + offset_[vertex + 1];
+  std::vector<std::uint8_t> is_done(static_cast<std::size_t>(end - begin), 0);
+  const auto isDone = [&](int side) -> std::uint8_t& { return is_done[std::lower_bound(begin, end, side) - begin]; };
+  const auto rightOf = [&](int side) { return surface_.glue[side] < 0 ? -1 : nextSide(surface_.glue[side]); };
+  const auto leftOf = [&](int side) { return surface_.glue[previousSide(side)]; };
+  std::vector<Sector> sectors;
+  double turn = 0;
+  int fan = 0;
+  for (auto it = begin; it != end; ++it) {
+    if (isDone(*it) != 0) continue;
+    int first = *it;
+    for (int side = rightOf(first); side >= 0 && side != *it; side = rightOf(side)) first = side;
+    for (int side = first; side >= 0 && isDone(side) == 0; side = leftOf(side)) {
+      isDone(side) = 1;
+      const double right = lengthOf(side), left = lengthOf(previousSide(side)), across = lengthOf(nextSide(side));
+      const Vector2d apex =
+          apexLeftOf(Vector2d::Zero(), Vector2d(right, 0), left, across, 2 * triangleArea(right, left, across));
+      sectors.push_back({side, turn, std::atan2(apex.y(), apex.x()), fan});
+      turn += sectors.back().angle;
+    }
+    ++fan;
+  }
+  return sectors;
+}
+
+/// Whether two fans have the same neighbours.
+bool GeodesicWindows::areFrontAndBack(const std::vector<Sector>& sectors, int fan, int other) const {
+  const auto headsOf = [&](int number) {
+    std::vector<int> heads;
+    for (const Sector& sector : sectors)
+      if (sector.fan == number) heads.push_back(head(surface_, sector.side));
+    std::sort(heads.begin(), heads.end());
+    return heads;
+  };
+  return headsOf(fan) == headsOf(other);
+}
+
+/// The faces that are connected with the face of a side.
+std::vector<std::uint8_t> GeodesicWindows::sheetOf(int side) const {
+  std::vector<std::uint8_t> seen(surface_.faces.size(), 0);
+  std::vector<int> faces = {side / 3};
+  seen[side / 3] = 1;
+  while (!faces.empty()) {
+    const int face = faces.back();
+    faces.pop_back();
+    for (int s = 3 * face; s < 3 * face + 3; ++s) {
+      const int mate = surface_.glue[s];
+      if (mate < 0 || seen[mate / 3] != 0) continue;
+      seen[mate / 3] = 1;
+      faces.push_back(mate / 3);
+    }
+  }
+  return seen;
+}
+
+Vector2d GeodesicWindows::apexOf(const Door& door) const {
+  const double across = lengthOf(door.side), to_right = lengthOf(nextSide(door.side)),
+               to_left = lengthOf(previousSide(door.side));
+  return apexLeftOf(door.left, door.right, to_left, to_right, 2 * triangleArea(across, to_right, to_left));
+}
+
+void GeodesicWindows::reach(int vertex, double distance, double turn, const Arrival& arrival) {
+  if (!(distance < distance_[vertex])) return;
+  distance_[vertex] = distance;
+  turn_[vertex] = turn;
+  arrival_[vertex] = arrival;
+  bends_.push({distance, vertex});
+}
+
+/// Starts a window in the directions of a sector from `low` to `high`, angles from its side.
+/// @param window with its members `before`, `turn`, here of the side, and `has_bent`
+void GeodesicWindows::leave(const Sector& sector, double low, double high, const Window& window) {
+  const int right_side = sector.side, left_side = previousSide(sector.side), across = nextSide(sector.side);
+  const Vector2d right(lengthOf(right_side), 0), left = polar(lengthOf(left_side), sector.angle);
+  if (low <= 0)
+    reach(head(surface_, right_side), window.before + right.x(), window.turn,
+          {across, between(left - right, Vector2d(-right))});
+  if (high >= sector.angle)
+    reach(tail(surface_, left_side), window.before + lengthOf(left_side),
+          window.has_bent ? window.turn : window.turn + sector.angle, {left_side, 0});
+  Window started = window;
+  started.door = {surface_.glue[across], left, right};
+  started.low = polar(1, std::max(low, 0.0));
+  started.high = polar(1, std::min(high, sector.angle));
+  add(started, nullptr);
+}
+
+/// Starts windows in all directions. If front and back of the surface are not connected, they are mirror images, and
+/// one is enough.
+void GeodesicWindows::leaveSource() {
+  if (sectors_.empty()) return;
+  const std::vector<std::uint8_t> sheet = sheetOf(sectors_[0].side);
+  for (const Sector& sector : sectors_)
+    if (sheet[sector.side / 3] != 0 || !areFrontAndBack(sectors_, sector.fan, 0))
+      leave(sector, 0, sector.angle, {.before = 0, .turn = sector.begin, .has_bent = false});
+}
+
+/// Starts windows where a path bends: in the directions more than half a circle from the way back, on both sides.
+void GeodesicWindows::bend(int vertex) {
+  const std::vector<Sector> sectors = sectorsAt(vertex);
+  const Arrival arrival = arrival_[vertex];
+  const auto from =
+      std::find_if(sectors.begin(), sectors.end(), [&](const Sector& s) { return s.side == arrival.side; });
+  const auto [first, last] = std::equal_range(sectors.begin(), sectors.end(), *from,
+                                              [](const Sector& a, const Sector& b) { return a.fan < b.fan; });
+  const double back = from->begin + arrival.angle;
+  const double total = std::prev(last)->begin + std::prev(last)->angle - first->begin;
+  const double half = std::numbers::pi + least_bend / 2;
+  const Window window = {.before = distance_[vertex], .turn = turn_[vertex], .has_bent = true};
+  for (const Sector& sector : sectors) {
+    const auto leaveBetween = [&](double low, double high) {
+      low = std::max(low - sector.begin, 0.0);
+      high = std::min(high - sector.begin, sector.angle);
+      if (low < high) leave(sector, low, high, window);
+    };
+    if (sector.fan != from->fan) {
+      if (!areFrontAndBack(sectors, sector.fan, from->fan)) leaveBetween(-infinity, infinity);
+    } else if (surface_.glue[first->side] < 0) {
+      leaveBetween(back + half, infinity);
+      leaveBetween(-infinity, back - half);
+    } else {
+      leaveBetween(back + half, back - half + total);
+      leaveBetween(back + half - total, back - half);
+    }
+  }
+}
+
+/// Adds a window unless a path around one of its side's ends, or the corner behind, is shorter everywhere.
+void GeodesicWindows::add(Window window, const Behind* behind) {
+  const int side = window.door.side;
+  if (side < 0) return;
+  const Vector2d left = window.door.left, right = window.door.right;
+  const auto endOf = [&](const Vector2d& direction) -> Vector2d {
+    const double to_right = std::abs(tufted::cross(direction, right)),
+                 to_left = std::abs(tufted::cross(direction, left));
+    if (!(to_right + to_left > 0)) return right;
+    return (to_left * right + to_right * left) / (to_right + to_left);
+  };
+  const Vector2d low_end = endOf(window.low), high_end = endOf(window.high), along = high_end - low_end;
+  const double square = along.squaredNorm();
+  if (!(square > on_line * on_line)) return;
+  window.key = window.before + (low_end + std::clamp(-low_end.dot(along) / square, 0.0, 1.0) * along).norm();
+  const auto isLonger = [&](int vertex, const Vector2d& at, const Vector2d& end) {
+    return distance_[vertex] + (at - end).norm() + on_line < window.before + end.norm();
+  };
+  if (isLonger(head(surface_, side), right, high_end) || isLonger(tail(surface_, side), left, low_end)) return;
+  if (behind != nullptr && isLonger(behind->vertex, behind->at, behind->is_low_far ? low_end : high_end)) return;
+  windows_.push(window);
+}
+
+/// Continues a window through the two other sides of the face behind it. If a vertex lies on a bound of the window,
+/// lines pass it on both sides.
+void GeodesicWindows::cross(const Window& window) {
+  const Door& door = window.door;
+  const int right_side = nextSide(door.side), left_side = previousSide(door.side);
+  const Vector2d apex = apexOf(door), direction = apex.normalized();
+  const double from_low = tufted::cross(window.low, apex), from_high = tufted::cross(window.high, apex);
+  bool passes_right = from_low >= -on_line, passes_left = from_high <= on_line;
+  if (passes_right && passes_left) {
+    const double distance = window.before + apex.norm();
+    reach(tail(surface_, left_side), distance,
+          window.has_bent ? window.turn : window.turn + std::atan2(apex.y(), apex.x()),
+          {left_side, between(door.left - apex, Vector2d(-apex))});
+    // Of two windows that see the vertex through this side, the one from which it is nearer goes on on both sides of
+    // it, the other one on its own side only, as shortest paths do not cross.
+    const double to_left = std::abs(tufted::cross(apex, door.left)),
+                 to_right = std::abs(tufted::cross(apex, door.right));
+    const double place = to_left / (to_left + to_right);
+    Nearest& nearest = nearest_[door.side];
+    if (distance < nearest.distance)
+      nearest = {distance, place};
+    else if (distance > nearest.distance + on_line)
+      (place < nearest.place ? passes_right : passes_left) = false;
+  }
+  Window next = window;
+  if (passes_right) {
+    next.door = {surface_.glue[right_side], apex, door.right};
+    next.high = from_low <= 0 ? window.low : from_high < 0 ? direction : window.high;
+    const Behind behind{tail(surface_, door.side), door.left, true};
+    add(next, &behind);
+  }
+  if (passes_left) {
+    next.door = {surface_.glue[left_side], door.left, apex};
+    next.low = from_high >= 0 ? window.high : from_low > 0 ? direction : window.low;
+    next.high = window.high;
+    const Behind behind{head(surface_, door.side), door.right, false};
+    add(next, &behind);
+  }
+}
+
+}  // namespace tufted
