@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -17,10 +16,6 @@
 
 namespace tufted {
 namespace {
-
-/// A side that is longer than the straight line between its ends by more than this part was flipped around an edge in
-/// space. Mollification lengthens sides by less.
-constexpr double straight_side = 1e-6;
 
 /// Triangles as a surface: sides without a mate, or whose mate would run the same way, are glued to -1.
 /// @param triangles at most two at an edge
@@ -86,28 +81,9 @@ double ExactLogMap::angleAlong(int source, const Sector& sector, double angle) c
   return std::atan2(flat.y(), flat.x());
 }
 
-/// The directions in the tangent plane of all turns. Between sides that flips have led around an edge in space it is
-/// interpolated from the next sides that are straight.
+/// The directions in the tangent plane of all turns.
 std::vector<double> ExactLogMap::anglesOf(int source, const GeodesicWindows& windows) const {
   const std::vector<Sector>& sectors = windows.sectors();
-  const auto isStraight = [&](int side) {
-    const double straight =
-        (positions_.row(head(surface(), side)) - positions_.row(tail(surface(), side))).stableNorm();
-    return surface().length[side] <= (1 + straight_side) * straight;
-  };
-  struct Known {
-    double turn, angle;
-  };
-  std::vector<std::vector<Known>> known;  // straight sides of each fan
-  for (std::size_t i = 0; i < sectors.size(); ++i) {
-    const Sector& sector = sectors[i];
-    if (static_cast<int>(known.size()) <= sector.fan) known.emplace_back();
-    std::vector<Known>& fan = known.back();
-    if (isStraight(sector.side)) fan.push_back({sector.begin, angleAlong(source, sector, 0)});
-    const bool is_last = i + 1 == sectors.size() || sectors[i + 1].fan != sector.fan;
-    if (is_last && isStraight(previousSide(sector.side)))
-      fan.push_back({sector.begin + sector.angle, angleAlong(source, sector, sector.angle)});
-  }
   std::vector<double> angles(static_cast<std::size_t>(positions_.rows()), 0);
   for (int i = 0; i < static_cast<int>(angles.size()); ++i) {
     if (i == source || !std::isfinite(windows.distance(i))) continue;
@@ -115,15 +91,6 @@ std::vector<double> ExactLogMap::anglesOf(int source, const GeodesicWindows& win
     const Sector& sector = *std::prev(std::upper_bound(sectors.begin() + 1, sectors.end(), turn,
                                                        [](double t, const Sector& s) { return t < s.begin; }));
     angles[i] = angleAlong(source, sector, std::clamp(turn - sector.begin, 0.0, sector.angle));
-    if (isStraight(sector.side) && isStraight(nextSide(sector.side)) && isStraight(previousSide(sector.side))) continue;
-    const std::vector<Known>& fan = known[sector.fan];
-    const auto after =
-        std::upper_bound(fan.begin(), fan.end(), turn, [](double t, const Known& k) { return t < k.turn; });
-    if (after == fan.begin() || after == fan.end()) continue;
-    const Known &low = *std::prev(after), &high = *after;
-    if (high.turn - low.turn >= std::numbers::pi) continue;
-    angles[i] = low.angle + (turn - low.turn) / (high.turn - low.turn) *
-                                std::remainder(high.angle - low.angle, 2 * std::numbers::pi);
   }
   return angles;
 }

@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
                                                     {"torus", bench::printTorus},
                                                     {"symmetry", bench::printSymmetry},
                                                     {"signed", bench::printSigned},
+                                                    {"logmap", bench::printLogMaps},
                                                     {"query", bench::printQuery},
                                                     {"obtuse", printObtuse},
                                                     {"green", printGreen},
