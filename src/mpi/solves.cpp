@@ -32,6 +32,38 @@ void subtractMeans(const DistributedLaplacian& laplacian, Vec vector) {
   setLocal(vector, values);
 }
 
+/// Tells PETSc, while it lives, that the functions that are constant on each component are the null space of L:
+/// conjugate gradients then remove what rounding adds there in every iteration, and would fail otherwise.
+class NullSpace {
+ public:
+  explicit NullSpace(const DistributedLaplacian& laplacian)
+      : laplacian_(laplacian), rows_(sumsOf(laplacian, std::vector<double>(laplacian.point.size(), 1))) {
+    check(MatNullSpaceCreate(commOf(laplacian), PETSC_FALSE, 0, nullptr, space_.make()));
+    check(MatNullSpaceSetFunction(space_.get(), remove, this));
+    check(MatSetNullSpace(laplacian.L.get(), space_.get()));
+  }
+  ~NullSpace() { MatSetNullSpace(laplacian_.L.get(), nullptr); }
+  NullSpace(const NullSpace&) = delete;
+  NullSpace& operator=(const NullSpace&) = delete;
+
+ private:
+  static PetscErrorCode remove(MatNullSpace, Vec vector, void* self) {
+    const auto& [laplacian, rows, space] = *static_cast<const NullSpace*>(self);
+    std::vector<double> values = localOf(vector);
+    const std::vector<double> sums = sumsOf(laplacian, values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const PetscInt c = laplacian.component[i];
+      values[i] -= sums[c] / rows[c];
+    }
+    setLocal(vector, values);
+    return 0;
+  }
+
+  const DistributedLaplacian& laplacian_;
+  const std::vector<double> rows_;  ///< of each component
+  PetscHandle<MatNullSpace, MatNullSpaceDestroy> space_;
+};
+
 /// Solves A u = b and checks the residual.
 void solve(const char* function, Mat A, Mat preconditioned, Vec b, Vec u, DistributedSolve* report) {
   MPI_Comm comm = MPI_COMM_NULL;
@@ -82,6 +114,7 @@ PetscVector poisson(const DistributedLaplacian& laplacian, Vec f, DistributedSol
   subtractMeans(laplacian, b.get());
   check(VecPointwiseMult(b.get(), laplacian.M.get(), b.get()));
   check(VecSet(u.get(), 0));
+  const NullSpace null_space(laplacian);
   solve("poisson", laplacian.L.get(), definiteOf(laplacian).get(), b.get(), u.get(), report);
   subtractMeans(laplacian, u.get());
   return u;

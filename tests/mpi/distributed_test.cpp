@@ -212,6 +212,21 @@ TEST(DistributedSolves, PoissonIsThatOfTheWhole) {
   EXPECT_LE(report.iterations, 25);
 }
 
+// From some 100,000 points on, rounding would add constants to what conjugate gradients look for.
+TEST(DistributedSolves, PoissonOfManyPointsConverges) {
+  const Points points = sphere(200000, 101);
+  const DistributedLaplacian laplacian = build(spread(points).own);
+  DistributedSolve report;
+  const PetscVector z = byRow(laplacian, [&](std::int64_t p) { return points(p, 2); });
+  PetscVector u = poisson(laplacian, z.get(), &report);
+  EXPECT_LE(report.iterations, 25);
+  PetscReal norm = 0, error = 0;
+  VecNorm(z.get(), NORM_2, &norm);
+  VecAXPY(u.get(), -0.5, z.get());
+  VecNorm(u.get(), NORM_2, &error);
+  EXPECT_LT(error, 1e-4 * norm / 2);
+}
+
 TEST(DistributedSolves, HarmonicIsThatOfTheWhole) {
   Points points(4000, 3);
   points << sphere(2500, 101), sphere(1500, 102, {0, 9, 0});
