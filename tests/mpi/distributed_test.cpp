@@ -248,18 +248,18 @@ TEST(DistributedSolves, HarmonicIsThatOfTheWhole) {
 }
 
 TEST(DistributedSolves, SpectrumIsThatOfTheWhole) {
-  Points points(3000, 3);
-  points << sphere(2000, 101), .7 * sphere(1000, 102, {0, 9, 0});
+  Points points(1500, 3);
+  points << sphere(1000, 101), .7 * sphere(500, 102, {0, 9, 0});
   SpectrumOptions options;
   options.null_space = false;
   options.threads = 1;
-  const Spectrum expected = spectrum(pointCloudLaplacian(points, clean()), 10, options);
+  const Spectrum expected = spectrum(pointCloudLaplacian(points, clean()), 6, options);
   const DistributedLaplacian laplacian = build(spread(points).own);
-  const DistributedSpectrum found = spectrum(laplacian, 10);
-  ASSERT_EQ(found.values.size(), 10u);
-  for (int i = 0; i < 10; ++i) EXPECT_NEAR(found.values[i], expected.values[i], 1e-7 * expected.values[i]) << i;
+  const DistributedSpectrum found = spectrum(laplacian, 6);
+  ASSERT_EQ(found.values.size(), 6u);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(found.values[i], expected.values[i], 1e-7 * expected.values[i]) << i;
   EXPECT_LE(found.report.residual, 1e-8);
-  for (int i = 0; i < 10; ++i)
+  for (int i = 0; i < 6; ++i)
     for (int j = 0; j <= i; ++j) {
       PetscVector product = byRow(laplacian, [](std::int64_t) { return 0; });
       VecPointwiseMult(product.get(), laplacian.M.get(), found.vectors[i].get());
