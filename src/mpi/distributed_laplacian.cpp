@@ -65,7 +65,9 @@ TileReport reportOfAll(MPI_Comm comm, TileReport report) {
     *count = sumOf(comm, *count);
   report.builds = static_cast<int>(sumOf(comm, report.builds));
   MPI_Allreduce(MPI_IN_PLACE, &report.area, 1, MPI_DOUBLE, MPI_SUM, comm);
-  MPI_Allreduce(MPI_IN_PLACE, &report.margin, 1, MPI_DOUBLE, MPI_MAX, comm);
+  report.margin += 1;
+  MPI_Allreduce(MPI_IN_PLACE, &report.margin, 1, MPI_DOUBLE, MPI_SUM, comm);
+  report.margin -= 1;
   MPI_Allreduce(MPI_IN_PLACE, &report.most_points, 1, MPI_INT64_T, MPI_MAX, comm);
   return report;
 }
@@ -220,6 +222,10 @@ PetscVector valuesByRow(const DistributedLaplacian& laplacian, Vec by_point) {
 }
 
 std::vector<PetscInt> rowsOf(const DistributedLaplacian& laplacian, const std::vector<std::int64_t>& points) {
+  for (const std::int64_t point : points)
+    if (point < 0 || point >= laplacian.report.points)
+      throw InvalidInput("rowsOf: point " + std::to_string(point) + ", must be in [0, " +
+                         std::to_string(laplacian.report.points) + ")");
   std::vector<std::int64_t> copies, originals;
   for (const auto& [point, representative] : laplacian.coincident) {
     copies.push_back(point);

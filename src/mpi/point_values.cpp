@@ -40,9 +40,9 @@ std::vector<double> valuesAt(Vec vector, const std::vector<std::int64_t>& number
   return localOf(result.get());
 }
 
-void setAt(Vec vector, const std::vector<std::int64_t>& numbers, const std::vector<double>& values) {
+void setAt(Vec vector, const std::vector<std::int64_t>& numbers, const std::vector<double>& values, InsertMode mode) {
   const std::vector<PetscInt> places(numbers.begin(), numbers.end());
-  check(VecSetValues(vector, static_cast<PetscInt>(places.size()), places.data(), values.data(), INSERT_VALUES));
+  check(VecSetValues(vector, static_cast<PetscInt>(places.size()), places.data(), values.data(), mode));
   check(VecAssemblyBegin(vector));
   check(VecAssemblyEnd(vector));
 }

@@ -15,7 +15,8 @@ void setLocal(Vec vector, const std::vector<double>& values);
 
 /// Entries with any numbers. Collective.
 std::vector<double> valuesAt(Vec vector, const std::vector<std::int64_t>& numbers);
-/// Sets entries with any numbers. Collective.
-void setAt(Vec vector, const std::vector<std::int64_t>& numbers, const std::vector<double>& values);
+/// Sets entries with any numbers, or adds to them. Collective.
+void setAt(Vec vector, const std::vector<std::int64_t>& numbers, const std::vector<double>& values,
+           InsertMode mode = INSERT_VALUES);
 
 }  // namespace tufted

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/number_text.h"
@@ -86,17 +87,24 @@ void solve(const char* function, Mat A, Mat preconditioned, Vec b, Vec u, Distri
   const double norm = normOf(b);
   DistributedSolve made;
   check(KSPGetIterationNumber(solver.get(), &made.iterations));
-  made.residual = norm > 0 ? normOf(rest.get()) / norm : 0;
+  made.residual = norm == 0 ? 0 : normOf(rest.get()) / norm;
   if (!(made.residual <= most_residual))
     throw SolverFailure(std::string(function) + ": the residual is " + numberText(made.residual) + " after " +
                         std::to_string(made.iterations) + " iterations, must be at most " + numberText(most_residual));
   if (report != nullptr) *report = made;
 }
 
-void requireFinite(const char* function, const char* name, Vec vector) {
-  PetscReal norm = 0;
-  check(VecNorm(vector, NORM_INFINITY, &norm));
-  if (!std::isfinite(norm)) throw InvalidInput(std::string(function) + ": " + name + " must be finite");
+void requireFinite(const DistributedLaplacian& laplacian, const char* function, const char* name, Vec vector) {
+  const std::vector<double> values = localOf(vector);
+  int is_finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }) ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &is_finite, 1, MPI_INT, MPI_MIN, commOf(laplacian));
+  if (is_finite == 0) throw InvalidInput(std::string(function) + ": " + name + " must be finite");
+}
+
+double greatestOf(Vec vector) {
+  PetscReal greatest = 0;
+  check(VecNorm(vector, NORM_INFINITY, &greatest));
+  return greatest;
 }
 
 }  // namespace
@@ -108,15 +116,25 @@ PetscVector poisson(const DistributedLaplacian& laplacian, Vec f, DistributedSol
   if (given != size)
     throw InvalidInput("poisson: f has " + std::to_string(given) + " values on a process, must have " +
                        std::to_string(size));
-  requireFinite("poisson", "f", f);
+  requireFinite(laplacian, "poisson", "f", f);
   PetscVector b = like(f), u = like(f);
+  check(VecSet(u.get(), 0));
   check(VecCopy(f, b.get()));
   subtractMeans(laplacian, b.get());
+  subtractMeans(laplacian, b.get());  // what rounding has left of the first means
+  const double greatest = greatestOf(b.get());
+  if (report != nullptr) *report = {};
+  if (greatest <= std::numeric_limits<double>::epsilon() * greatestOf(f)) return u;  // f is constant
+
+  // With a right side of size 1 neither squares nor products under- or overflow in any unit.
+  const double area = laplacian.report.area / static_cast<double>(laplacian.report.active);
+  check(VecScale(b.get(), 1 / greatest));
   check(VecPointwiseMult(b.get(), laplacian.M.get(), b.get()));
-  check(VecSet(u.get(), 0));
+  check(VecScale(b.get(), 1 / area));
   const NullSpace null_space(laplacian);
   solve("poisson", laplacian.L.get(), definiteOf(laplacian).get(), b.get(), u.get(), report);
   subtractMeans(laplacian, u.get());
+  check(VecScale(u.get(), greatest * area));
   return u;
 }
 
@@ -131,18 +149,23 @@ PetscVector harmonic(const DistributedLaplacian& laplacian, const std::vector<Pe
   for (const PetscInt row : rows)
     if (row < 0 || row >= size)
       throw InvalidInput("harmonic: row " + std::to_string(row) + ", must be in [0, " + std::to_string(size) + ")");
-  // Which rows have a value: a mark that travels to the process of each row.
-  PetscVector mark = like(laplacian.M.get()), u = like(laplacian.M.get()), b = like(laplacian.M.get());
+  // How many values each row has, and their sum, which travel to the process of the row.
+  PetscVector counts = like(laplacian.M.get()), u = like(laplacian.M.get()), b = like(laplacian.M.get());
   const std::vector<std::int64_t> numbers(rows.begin(), rows.end());
-  check(VecSet(mark.get(), 0));
-  setAt(mark.get(), numbers, std::vector<double>(rows.size(), 1));
+  check(VecSet(counts.get(), 0));
+  setAt(counts.get(), numbers, std::vector<double>(rows.size(), 1), ADD_VALUES);
   check(VecSet(u.get(), 0));
-  setAt(u.get(), numbers, values);
-  requireFinite("harmonic", "values", u.get());
-  const std::vector<double> is_given = localOf(mark.get());
+  setAt(u.get(), numbers, values, ADD_VALUES);
+  requireFinite(laplacian, "harmonic", "values", u.get());
+  const std::vector<double> is_given = localOf(counts.get());
   const std::vector<double> given = sumsOf(laplacian, is_given);
   if (std::none_of(given.begin(), given.end(), [](double count) { return count > 0; }))
     throw InvalidInput("harmonic: no row has a given value, must be at least one");
+  std::vector<double> means = localOf(u.get());
+  for (std::size_t i = 0; i < means.size(); ++i) means[i] /= std::max(1.0, is_given[i]);
+  setLocal(u.get(), means);
+  const double greatest = greatestOf(u.get());
+  if (greatest > 0) check(VecScale(u.get(), 1 / greatest));  // squares do not underflow
 
   std::vector<PetscInt> fixed;
   for (std::size_t i = 0; i < is_given.size(); ++i)
@@ -154,7 +177,7 @@ PetscVector harmonic(const DistributedLaplacian& laplacian, const std::vector<Pe
   solve("harmonic", A.get(), A.get(), b.get(), u.get(), report);
   std::vector<double> result = localOf(u.get());
   for (std::size_t i = 0; i < result.size(); ++i)
-    if (given[laplacian.component[i]] == 0) result[i] = std::nan("");
+    result[i] = given[laplacian.component[i]] == 0 ? std::nan("") : result[i] * greatest;
   setLocal(u.get(), result);
   return u;
 }

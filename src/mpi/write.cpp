@@ -59,7 +59,8 @@ std::vector<double> blockOf(const DistributedLaplacian& laplacian, const Distrib
 
 /// Writes a matrix or a vector by all processes, at a path that process 0 has chosen.
 template <class Object, class View>
-void writePetsc(MPI_Comm comm, io::StagedFiles* files, const char* name, Object object, const View& view) {
+void writePetsc(MPI_Comm comm, io::StagedFiles* files, const std::filesystem::path& dir, const char* name,
+                Object object, const View& view) try {
   std::string path = files != nullptr ? files->stage(name).path.string() : "";
   auto size = static_cast<int>(path.size());
   MPI_Bcast(&size, 1, MPI_INT, 0, comm);
@@ -72,6 +73,10 @@ void writePetsc(MPI_Comm comm, io::StagedFiles* files, const char* name, Object 
   check(PetscViewerBinarySetSkipInfo(viewer.get(), PETSC_TRUE));
   check(PetscViewerFileSetName(viewer.get(), path.c_str()));
   check(view(object, viewer.get()));
+  PetscViewer open = viewer.release();
+  check(PetscViewerDestroy(&open));  // writes what is still buffered
+} catch (const SolverFailure& error) {
+  throw IoError((dir / name).string() + ": cannot write: " + error.what());
 }
 
 void writeList(io::StagedFiles& files, const std::string& name, const std::vector<double>& values) {
@@ -83,29 +88,18 @@ void writeList(io::StagedFiles& files, const std::string& name, const std::vecto
 
 }  // namespace
 
-std::vector<std::string> filesOf(const DistributedResult& result) {
-  std::vector<std::string> files;
-  if (result.has_matrices) files = {"L.petsc", "M.petsc", "row.npy"};
-  for (const DistributedArray& array : result.arrays) files.push_back(array.name + ".npy");
-  for (const auto& [name, values] : result.lists) files.push_back(name + ".npy");
-  files.emplace_back(io::report_name);
-  return files;
-}
-
-void checkWritable(const std::filesystem::path& dir) {
-  const io::StagedFiles files(dir);
-}
-
 void writeDistributed(const std::filesystem::path& dir, const DistributedLaplacian& laplacian,
                       const DistributedResult& result) {
+  auto report = nlohmann::ordered_json::parse(result.report, nullptr, false);
+  if (!report.is_object()) throw InvalidInput("writeDistributed: report must be a JSON object");
   const MPI_Comm comm = commOf(laplacian);
   int number = 0;
   MPI_Comm_rank(comm, &number);
   const std::unique_ptr<io::StagedFiles> files = number == 0 ? std::make_unique<io::StagedFiles>(dir) : nullptr;
   const std::int64_t points = laplacian.report.points;
   if (result.has_matrices) {
-    writePetsc(comm, files.get(), "L.petsc", laplacian.L.get(), MatView);
-    writePetsc(comm, files.get(), "M.petsc", laplacian.M.get(), VecView);
+    writePetsc(comm, files.get(), dir, "L.petsc", laplacian.L.get(), MatView);
+    writePetsc(comm, files.get(), dir, "M.petsc", laplacian.M.get(), VecView);
     std::unique_ptr<io::OutputFile> file;
     if (files) file = std::make_unique<io::OutputFile>(files->stage("row.npy"));
     if (files) file->write(io::npyHeader("<i8", {points}));
@@ -129,7 +123,6 @@ void writeDistributed(const std::filesystem::path& dir, const DistributedLaplaci
   if (files) {
     for (const auto& [name, values] : result.lists) writeList(*files, name, values);
     const io::OutputPath path = files->stage(io::report_name);
-    auto report = nlohmann::ordered_json::parse(result.report);
     report["files"] = files->names();
     io::OutputFile file(path);
     file.write(io::jsonText(report));

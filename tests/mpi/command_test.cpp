@@ -66,9 +66,18 @@ TEST_F(TuftedMpi, MatricesAreFilesOfPetsc) {
   EXPECT_EQ(number(1), 1200u);
   EXPECT_EQ(number(2), 1200u);
   EXPECT_EQ(number(3), report("out")["nonzeros"]);
-  std::vector<std::int64_t> rows = values<std::int64_t>("out/row.npy");
-  std::sort(rows.begin(), rows.end());
-  for (std::int64_t i = 0; i < 1200; ++i) EXPECT_EQ(rows[i], i);
+  const std::vector<std::int64_t> rows = values<std::int64_t>("out/row.npy");
+  run({"laplacian", cloud_, "--preset", "clean", "--format", "npz", "--out", in("one")});
+  const std::vector<double> masses = values("one/M.npy");
+  const std::string found = readAll(dir_ / "out/M.petsc");
+  ASSERT_EQ(found.size(), 8 + 8 * 1200u);
+  for (std::size_t p = 0; p < 1200; ++p) {
+    std::string bytes_of_mass = found.substr(8 + 8 * static_cast<std::size_t>(rows[p]), 8);
+    std::reverse(bytes_of_mass.begin(), bytes_of_mass.end());
+    double mass = 0;
+    std::memcpy(&mass, bytes_of_mass.data(), 8);
+    EXPECT_NEAR(mass, masses[p], 1e-12 * masses[p]) << p;
+  }
 }
 
 TEST_F(TuftedMpi, MistakesAreRefusedWithOneMessageAndNoResult) {
@@ -83,6 +92,9 @@ TEST_F(TuftedMpi, MistakesAreRefusedWithOneMessageAndNoResult) {
   expectRefused({"spectrum", in("missing.xyz")}, 1, in("missing.xyz") + ": no such file");
   expectRefused({"spectrum", cloud_, "--cont", "3"}, 2, "The following argument");
   expectRefused({"poisson", cloud_}, 2, "");
+  expectRefused({"spectrum", cloud_, "--count", "0"}, 2, "--count: ");
+  expectRefused({"spectrum", cloud_, "--count", "1000"}, 2, "spectrum: k = 1000, must be in [1, 400]");
+  expectRefused({"spectrum", cloud_, "--memory", "1M"}, 2, "laplacianByTiles: memory = ");
   expectRefused({"spectrum", cloud_, "--memory", "much"}, 2, "--memory: much is not a size");
   expectRefused({"harmonic", cloud_, "--pins", dir_.write("pins.txt", "3 1\n4 x\n")}, 1,
                 in("pins.txt") + ": line 2: is not INDEX VALUE");
@@ -98,7 +110,15 @@ TEST_F(TuftedMpi, OptionsOfPetscArePassedOnAndUnusedOnesNamed) {
   EXPECT_EQ(result.err, "tufted-mpi: warning: nothing has used the option -ksp_typ\n");
 }
 
-TEST_F(TuftedMpi, LeavesNoResultWhenAProcessDies) {
+TEST_F(TuftedMpi, NeverOverwritesItsInput) {
+  run({"poisson", cloud_, "--preset", "clean", "--field", "x", "--out", in("out")});
+  const std::string before = readAll(dir_ / "out/u.npy");
+  const Result result = runMpi({"poisson", cloud_, "--values", in("out/u.npy"), "--out", in("out")});
+  EXPECT_EQ(result.code, 2) << result.err;
+  EXPECT_EQ(readAll(dir_ / "out/u.npy"), before);
+}
+
+TEST_F(TuftedMpi, LeavesNoResultWhenAnotherProcessDies) {
   // The second process ends with an error before it has joined the first.
   const Result result = runProgram({TUFTED_MPIRUN, "-q", "-n", "1", TUFTED_MPI_COMMAND, "spectrum", cloud_, "--out",
                                     in("out"), ":", "-n", "1", "false"});

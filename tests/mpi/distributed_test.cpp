@@ -130,6 +130,7 @@ void expectRowsOf(const Laplacian& whole, const DistributedLaplacian& laplacian)
   }
   EXPECT_EQ(laplacian.report.active, whole.report.active);
   EXPECT_EQ(laplacian.report.nonzeros, whole.report.nonzeros);
+  EXPECT_GE(laplacian.report.margin, 0);
   EXPECT_NEAR(laplacian.report.area, whole.M.sum(), 1e-12 * whole.M.sum());
   PetscInt first = 0, last = 0;
   MatGetOwnershipRange(laplacian.L.get(), &first, &last);
@@ -140,6 +141,7 @@ void expectRowsOf(const Laplacian& whole, const DistributedLaplacian& laplacian)
     const int p = point_of.at(row);
     ASSERT_EQ(laplacian.point[row - first], p);
     EXPECT_EQ(laplacian.boundary[row - first], whole.boundary[p]);
+    EXPECT_NEAR(std::abs(laplacian.normals.row(row - first).dot(whole.frames.normals.row(p))), 1, 1e-12);
     EXPECT_NEAR(masses[row - first], whole.M[p], 1e-12 * whole.M[p]);
     PetscInt count = 0;
     const PetscInt* columns = nullptr;
@@ -212,6 +214,26 @@ TEST(DistributedSolves, PoissonIsThatOfTheWhole) {
   EXPECT_LE(report.iterations, 25);
 }
 
+TEST(DistributedSolves, PoissonIsTheSameInAnyUnit) {
+  const Points points = sphere(900, 101);
+  std::vector<Eigen::VectorXd> solved;
+  for (const double unit : {1.0, 1e-100, 1e100}) {
+    const Points scaled = unit * points;
+    const DistributedLaplacian laplacian = build(spread(scaled).own);
+    const PetscVector z = byRow(laplacian, [&](std::int64_t p) { return points(p, 2); });
+    solved.push_back(byPoint(laplacian, poisson(laplacian, z.get())) / (unit * unit));
+    EXPECT_LT((solved.back() - solved[0]).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
+TEST(DistributedSolves, PoissonOfAConstantIsZero) {
+  const DistributedLaplacian laplacian = build(spread(sphere(900, 101)).own);
+  for (const double value : {0.0, 0.1, 5.3}) {
+    const PetscVector f = byRow(laplacian, [&](std::int64_t) { return value; });
+    EXPECT_EQ(byPoint(laplacian, poisson(laplacian, f.get())).cwiseAbs().maxCoeff(), 0);
+  }
+}
+
 // From some 100,000 points on, rounding would add constants to what conjugate gradients look for.
 TEST(DistributedSolves, PoissonOfManyPointsConverges) {
   const Points points = sphere(200000, 101);
@@ -234,9 +256,11 @@ TEST(DistributedSolves, HarmonicIsThatOfTheWhole) {
   const DistributedLaplacian laplacian = build(spread(points).own);
   // The second sphere has no pin. The last process alone gives them.
   const bool gives = processNumber() == processCount() - 1;
-  const std::vector<std::int64_t> pins = gives ? std::vector<std::int64_t>{3, 500, 2000} : std::vector<std::int64_t>();
+  // Of two values at a point the mean counts.
+  const std::vector<std::int64_t> pins =
+      gives ? std::vector<std::int64_t>{3, 500, 2000, 3} : std::vector<std::int64_t>();
   const std::vector<PetscInt> rows = rowsOf(laplacian, pins);
-  const PetscVector made = harmonic(laplacian, rows, gives ? std::vector<double>{1, -2, .5} : std::vector<double>());
+  const PetscVector made = harmonic(laplacian, rows, gives ? std::vector<double>{2, -2, .5, 0} : std::vector<double>());
   const Eigen::VectorXd u = byPoint(laplacian, made);
   const Eigen::MatrixXd expected = harmonic(whole, {{3, 500, 2000}, Eigen::Vector3d(1, -2, .5)});
   for (int p = 0; p < 4000; ++p) {
@@ -286,8 +310,11 @@ TEST(DistributedSolves, RefuseMistakesInEveryProcess) {
   EXPECT_EQ(refusal([&] { spectrum(laplacian, 4, 1); }), "spectrum: tolerance = 1, must be in (0, 1)");
   EXPECT_EQ(refusal([&] { harmonic(laplacian, {900}, {1}); }), "harmonic: row 900, must be in [0, 900)");
   EXPECT_EQ(refusal([&] { harmonic(laplacian, {}, {}); }), "harmonic: no row has a given value, must be at least one");
-  EXPECT_EQ(refusal([&] { poisson(laplacian, byRow(laplacian, [](std::int64_t) { return nan; }).get()); }),
-            "poisson: f must be finite");
+  for (const int odd : {3, 700}) {
+    const auto f = [odd](std::int64_t p) { return p == odd ? nan : 1; };
+    EXPECT_EQ(refusal([&] { poisson(laplacian, byRow(laplacian, f).get()); }), "poisson: f must be finite");
+  }
+  EXPECT_EQ(refusal([&] { rowsOf(laplacian, {900}); }), "rowsOf: point 900, must be in [0, 900)");
   TileOptions options;
   options.cloud = cloudOptions(Preset::scan);
   const Points own = spread(sphere(900, 101)).own;
@@ -301,6 +328,10 @@ TEST(DistributedSolves, RefuseMistakesInEveryProcess) {
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   if (SlepcInitialize(&argc, &argv, nullptr, nullptr) != 0) return 1;
+  // Process 0 alone says what it has done; the others say what fails.
+  testing::GTEST_FLAG(color) = "no";
+  auto& listeners = testing::UnitTest::GetInstance()->listeners();
+  if (tufted::processNumber() != 0) delete listeners.Release(listeners.default_result_printer());
   PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
   const int failed = RUN_ALL_TESTS();
   SlepcFinalize();

@@ -31,7 +31,7 @@ Points terrain(double share, double noise, std::uint64_t seed) {
     const bool is_roof = std::abs(x - 40) < 10 && std::abs(y - 60) < 6;
     points.row(i) << x, y, (is_roof ? 25 : heightAt(x, y)) + noise * random.normal();
   }
-  Eigen::RowVector3d middle;
+  Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
   for (int i = ground; i < n; ++i) {
     if ((i - ground) % crown == 0) {
       const double x = random.uniform(10, side - 10), y = random.uniform(10, side - 10);

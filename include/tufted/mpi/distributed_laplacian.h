@@ -31,6 +31,8 @@ class PetscHandle {
   Object get() const { return object_; }
   /// The place for a function of PETSc that makes the object.
   Object* make() { return &object_; }
+  /// Hands the object over to the caller.
+  Object release() { return std::exchange(object_, nullptr); }
 
  private:
   Object object_ = nullptr;
@@ -54,7 +56,7 @@ struct DistributedLaplacian {
   PetscInt components = 0;  ///< number of connected components
   /// Pairs (point, representative) of the coincident points that this process has found.
   std::vector<std::pair<std::int64_t, std::int64_t>> coincident;
-  TileReport report;  ///< of all processes together; `most_points` and `margin` are the greatest
+  TileReport report;  ///< of all processes together; `most_points` is the greatest
 };
 
 /// Points of which each process of a communicator has some, as a source that gives all of them to every process. They
@@ -66,7 +68,8 @@ PointSource sourceOf(MPI_Comm comm, const PointsRef& points);
 /// up to rounding. No process holds all points: each writes them to a file of its own and reads its own part of them.
 /// Collective. PETSc must be initialised.
 /// @param source gives the same points in every process
-/// @param options `memory` is that of each process, `processes` is not used
+/// @param options `memory` is that of a build of tiles in each process; the rows of the process come on top, some 200
+/// bytes each, and then L. `processes` is not used
 /// @throws as laplacianByTiles(), possibly in one process while others wait: end all with MPI_Abort() then
 /// @throws InvalidInput for more points than an index of PETSc can count
 DistributedLaplacian distributedLaplacian(MPI_Comm comm, const PointSource& source, const TileOptions& options);
@@ -79,7 +82,8 @@ PetscVector valuesByPoint(const DistributedLaplacian& laplacian, Vec values);
 PetscVector valuesByRow(const DistributedLaplacian& laplacian, Vec by_point);
 
 /// The rows of some points of the source, -1 for those that are not active; coincident points have that of their
-/// representative. Collective. @param points in [0, N)
+/// representative. Collective.
+/// @throws InvalidInput for points outside [0, N)
 std::vector<PetscInt> rowsOf(const DistributedLaplacian& laplacian, const std::vector<std::int64_t>& points);
 
 }  // namespace tufted

@@ -27,7 +27,7 @@ PetscVector poisson(const DistributedLaplacian& laplacian, Vec f, DistributedSol
 
 /// The harmonic function with given values at some rows, see harmonic(). Components without a given value are NaN. By
 /// conjugate gradients with hypre's algebraic multigrid. Collective.
-/// @param rows rows of L with a given value, from any process, each once
+/// @param rows rows of L with a given value, from any process; several values of one row count as their mean
 /// @param values one per entry of `rows`
 /// @throws InvalidInput if no process gives a value, for rows out of range, and for values that are not finite or not
 /// as many as rows

@@ -14,13 +14,16 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "../bytes.h"
 #include "../options.h"
+#include "../paths.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
 #include "tufted/io/tiles.h"
+#include "tufted/io/write.h"
 #include "tufted/mpi/solves.h"
 #include "tufted/mpi/write.h"
 #include "tufted/version.h"
@@ -93,19 +96,12 @@ tufted::PetscVector coordinateOf(const tufted::DistributedLaplacian& laplacian, 
   return valuesByRow(laplacian, by_point.get());
 }
 
-/// Values of a .npy file, by row. Process 0 reads them.
-tufted::PetscVector valuesOf(const tufted::DistributedLaplacian& laplacian, const std::filesystem::path& file) {
+/// Values of the points, by row. @param given N x 1 in process 0; not used in the others
+tufted::PetscVector valuesByRowOf(const tufted::DistributedLaplacian& laplacian, const Eigen::MatrixXd& given) {
   tufted::PetscVector by_point;
   VecDuplicate(laplacian.row.get(), by_point.make());
-  inProcess0([&] {
-    const Eigen::MatrixXd values = tufted::readArray(file);
-    if (values.rows() != laplacian.report.points || values.cols() != 1)
-      throw tufted::InvalidInput(file.string() + " has " + std::to_string(values.rows()) + " x " +
-                                 std::to_string(values.cols()) + " values, must have " +
-                                 std::to_string(laplacian.report.points) + " x 1, one per point");
-    for (Eigen::Index i = 0; i < values.rows(); ++i)
-      VecSetValue(by_point.get(), static_cast<PetscInt>(i), values(i), INSERT_VALUES);
-  });
+  for (Eigen::Index i = 0; i < given.rows(); ++i)
+    VecSetValue(by_point.get(), static_cast<PetscInt>(i), given(i, 0), INSERT_VALUES);
   VecAssemblyBegin(by_point.get());
   VecAssemblyEnd(by_point.get());
   return valuesByRow(laplacian, by_point.get());
@@ -139,15 +135,8 @@ std::vector<std::pair<std::int64_t, double>> readPins(const std::filesystem::pat
   return pins;
 }
 
-Pins pinsOf(const tufted::DistributedLaplacian& laplacian, const std::filesystem::path& file) {
-  std::vector<std::pair<std::int64_t, double>> given;
-  inProcess0([&] {
-    given = readPins(file);
-    for (const auto& [point, value] : given)
-      if (point < 0 || point >= laplacian.report.points)
-        throw tufted::InvalidInput("--pins: point " + std::to_string(point) + ", must be in [0, " +
-                                   std::to_string(laplacian.report.points) + ")");
-  });
+/// @param given in process 0; none in the others
+Pins pinsOf(const tufted::DistributedLaplacian& laplacian, const std::vector<std::pair<std::int64_t, double>>& given) {
   std::vector<std::int64_t> points;
   for (const auto& [point, value] : given) points.push_back(point);
   const std::vector<PetscInt> rows = rowsOf(laplacian, points);
@@ -200,6 +189,7 @@ nlohmann::ordered_json reportOf(const Settings& settings, const tufted::TileRepo
           {"neighbors", settings.tiles.cloud.neighbors},
           {"points", report.points},
           {"active", report.active},
+          {"not_finite", report.not_finite},
           {"coincident", report.coincident},
           {"isolated", report.isolated},
           {"nonzeros", report.nonzeros},
@@ -240,16 +230,13 @@ class CommandLine {
 
   void run() {
     const auto start = std::chrono::steady_clock::now();
-    // Other processes find the same faults, but later: one message is enough.
-    inProcess0([&] {
-      tufted::sourceOf(settings_.file, settings_.as);
-      tufted::checkWritable(settings_.out);
-    });
+    inProcess0([&] { checkInputs(tufted::sourceOf(settings_.file, settings_.as).size); });
     const tufted::FileSource source = tufted::sourceOf(settings_.file, settings_.as);
     settings_.tiles.folder = existingFolder(settings_.out);
     const auto laplacian = tufted::distributedLaplacian(PETSC_COMM_WORLD, source, settings_.tiles);
     compute_(laplacian, source);
     auto report = reportOf(settings_, laplacian.report);
+    report["components"] = laplacian.components;
     report.update(report_);
     result_.report = report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     tufted::writeDistributed(settings_.out, laplacian, result_);
@@ -265,7 +252,25 @@ class CommandLine {
   }
 
  private:
-  CLI::App& add(const char* name, const char* description, Compute compute) {
+  /// Reads the small files, and refuses what can be seen before the build. In process 0 alone: one message is enough.
+  void checkInputs(std::int64_t points) {
+    for (const std::string& name : files_)
+      refuseOverwriting("--out " + settings_.out.string(), settings_.out / name, inputsOf(*command_));
+    tufted::checkWritable(settings_.out, files_);
+    if (!settings_.values.empty()) given_values_ = tufted::readArray(settings_.values);
+    if (!settings_.values.empty() && (given_values_.rows() != points || given_values_.cols() != 1))
+      throw tufted::InvalidInput(settings_.values.string() + " has " + std::to_string(given_values_.rows()) + " x " +
+                                 std::to_string(given_values_.cols()) + " values, must have " + std::to_string(points) +
+                                 " x 1, one per point");
+    if (!settings_.pins.empty()) given_pins_ = readPins(settings_.pins);
+    for (const auto& [point, value] : given_pins_)
+      if (point < 0 || point >= points)
+        throw tufted::InvalidInput("--pins: point " + std::to_string(point) + ", must be in [0, " +
+                                   std::to_string(points) + ")");
+  }
+
+  /// @param files names of the results
+  CLI::App& add(const char* name, const char* description, std::vector<std::string> files, Compute compute) {
     CLI::App& command = *app_.add_subcommand(name, description);
     command.add_option("FILE", settings_.file, "Cloud: LAS, PLY, PCD, NPY, text in columns")
         ->required()
@@ -282,13 +287,18 @@ class CommandLine {
         .add_option_function<std::string>(
             "--memory",
             [this](const std::string& size) { settings_.tiles.memory = static_cast<double>(*parseBytes(size)); },
-            "Memory of each process; smaller tiles are built to keep it")
+            "Memory of a build of tiles in each process; rows and solvers come on top, see docs/scale.md")
         ->check([](const std::string& size) {
           return parseBytes(size) ? std::string() : size + " is not a size such as 4G or 500M";
         })
         ->type_name("SIZE")
         ->default_str("4G");
-    command.callback([this, compute = std::move(compute)] { compute_ = compute; });
+    files.emplace_back("report.json");
+    command.callback([this, &command, files = std::move(files), compute = std::move(compute)] {
+      command_ = &command;
+      files_ = files;
+      compute_ = compute;
+    });
     return command;
   }
 
@@ -298,16 +308,16 @@ class CommandLine {
   }
 
   void addLaplacian() {
-    add("laplacian", "Write L and M as files of PETSc.",
+    add("laplacian", "Write L and M as files of PETSc.", {"L.petsc", "M.petsc", "row.npy"},
         [this](const auto&, const auto&) { result_.has_matrices = true; });
   }
 
   void addPoisson() {
     CLI::App& command =
-        add("poisson", "Solve L u = M f; writes u.npy.", [this](const auto& laplacian, const auto& source) {
+        add("poisson", "Solve L u = M f; writes u.npy.", {"u.npy"}, [this](const auto& laplacian, const auto& source) {
           const tufted::PetscVector f = settings_.values.empty()
                                             ? coordinateOf(laplacian, source, settings_.coordinate[0] - 'x')
-                                            : valuesOf(laplacian, settings_.values);
+                                            : valuesByRowOf(laplacian, given_values_);
           tufted::DistributedSolve made;
           kept_.push_back(poisson(laplacian, f.get(), &made));
           addSolve(made);
@@ -323,8 +333,8 @@ class CommandLine {
 
   void addHarmonic() {
     CLI::App& command = add("harmonic", "Interpolate values of some points harmonically; writes values.npy.",
-                            [this](const auto& laplacian, const auto&) {
-                              const Pins pins = pinsOf(laplacian, settings_.pins);
+                            {"values.npy"}, [this](const auto& laplacian, const auto&) {
+                              const Pins pins = pinsOf(laplacian, given_pins_);
                               tufted::DistributedSolve made;
                               kept_.push_back(harmonic(laplacian, pins.rows, pins.values, &made));
                               addSolve(made);
@@ -335,7 +345,7 @@ class CommandLine {
 
   void addSpectrum() {
     CLI::App& command = add("spectrum", "Find the smallest positive eigenvalues; writes evals.npy and evecs.npy.",
-                            [this](const auto& laplacian, const auto&) {
+                            {"evals.npy", "evecs.npy"}, [this](const auto& laplacian, const auto&) {
                               auto found = spectrum(laplacian, settings_.count, settings_.tolerance);
                               addSolve(found.report);
                               kept_ = std::move(found.vectors);
@@ -344,20 +354,30 @@ class CommandLine {
                               result_.arrays = {std::move(vectors)};
                               result_.lists = {{"evals", std::move(found.values)}};
                             });
-    command.add_option("--count", settings_.count, "Number of eigenpairs")->capture_default_str();
-    command.add_option("--tolerance", settings_.tolerance, "Tolerance on their residual")->capture_default_str();
+    command.add_option("--count", settings_.count, "Number of eigenpairs")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--tolerance", settings_.tolerance, "Tolerance on their residual, below 1")
+        ->check(CLI::Range(1e-15, 0.999))
+        ->capture_default_str();
   }
 
   CLI::App app_;
   Settings settings_;
+  // Of the subcommand that is given:
+  const CLI::App* command_ = nullptr;
+  std::vector<std::string> files_;  ///< names of its results
   Compute compute_;
-  std::vector<tufted::PetscVector> kept_;  ///< vectors of the result
+  Eigen::MatrixXd given_values_;                             ///< in process 0
+  std::vector<std::pair<std::int64_t, double>> given_pins_;  ///< in process 0
+  std::vector<tufted::PetscVector> kept_;                    ///< vectors of the result
   tufted::DistributedResult result_;
   nlohmann::ordered_json report_ = nlohmann::ordered_json::object();
 };
 
-/// Prints a message and ends all processes.
+/// Prints a message and ends all processes. Where all fail alike, process 0 speaks.
 void fail(const std::string& message, int code) {
+  if (processNumber() != 0) std::this_thread::sleep_for(std::chrono::seconds(1));
   std::fprintf(stderr, "tufted-mpi: %s\n", message.c_str());
   MPI_Abort(PETSC_COMM_WORLD, code);
 }
