@@ -126,7 +126,7 @@ struct LogMap {
 
 /// How logarithmic maps are computed.
 enum class LogMapMethod : std::uint8_t {
-  exact,  ///< shortest paths over the triangles, exact to rounding; a query takes time that grows with N^1.5
+  exact,  ///< shortest paths over the triangles; on even ones a query takes time that grows with N^1.5
   heat,   ///< the vector heat method: fast queries on millions of points, but angles are off by some degrees
 };
 
@@ -134,7 +134,7 @@ enum class LogMapMethod : std::uint8_t {
 struct LogMapOptions {
   LogMapMethod method = LogMapMethod::exact;  ///< how the map is computed
   double time_step = 4;                       ///< heat: see VectorHeatOptions
-  SolverOptions solver = {};                  ///< heat: how systems are solved
+  SolverOptions solver = {};                  ///< heat: how systems are solved; `progress` is of both
 };
 
 /// The logarithmic map: for each point, the direction at the source and the length of the shortest path to it. Prepared
@@ -142,7 +142,10 @@ struct LogMapOptions {
 ///
 /// Exact: paths are those of PathSolver on a mesh, on its cover, and of a cloud on surfaceTriangles(). GeodesicTracer
 /// follows a path back to its point where no saddle lies on the way, and passes beside it where one does: no straight
-/// line leads there. Points in no triangle get the direction of a neighbour.
+/// line leads there. Points in no triangle get the direction of a neighbour. Lengths are exact to rounding; so are
+/// directions, except beside an edge at the source that was flipped, where they follow the corners of the triangle.
+/// Around a vertex of N triangles time grows with N^2, and in thin triangles lines wind without an end, which is
+/// refused.
 ///
 /// Heat (Sharp, Soliman, Crane 2019, Section 8.2): the distance is that of DistanceSolver, the angle that between two
 /// transported fields: the axes at the source, and the directions away from it. The latter start in a ring some
@@ -164,7 +167,7 @@ class LogMapSolver {
   /// tangent
   /// @throws InvalidInput for an index out of range, a source that is not active, or an axis that is not finite or
   /// perpendicular to the tangent plane
-  /// @throws SolverFailure for the same reasons as Solver::solve()
+  /// @throws SolverFailure for the same reasons as Solver::solve(); exact: where lines wind without an end
   /// @throws Cancelled when `progress` returns false
   LogMap query(int source, const Eigen::RowVector3d& axis = Eigen::RowVector3d::Zero(),
                const Progress& progress = {}) const;

@@ -44,14 +44,14 @@ IntrinsicTriangulation glued(const Points& positions, const Triangles& triangles
 
 }  // namespace
 
-ExactLogMap::ExactLogMap(const Laplacian& laplacian, const Frames& frames)
+ExactLogMap::ExactLogMap(const Laplacian& laplacian, const Frames& frames, const Progress& progress)
     : L_(laplacian.L),
       positions_(laplacian.positions),
       frames_(frames),
       components_(findComponents(laplacian)),
       exponent_(unitOf(*laplacian.cover_source)) {
   if (laplacian.kind == Kind::cloud && laplacian.frames.normals.rows() > 0)
-    triangles_ = glued(positions_, surfaceTriangles(laplacian));
+    triangles_ = glued(positions_, surfaceTriangles(laplacian, {.progress = progress}));
   else
     cover_ = laplacian.cover_source;
 }

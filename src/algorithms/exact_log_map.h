@@ -21,7 +21,8 @@ class ExactLogMap {
   };
 
   /// @param laplacian with positions and a valid cover
-  ExactLogMap(const Laplacian& laplacian, const Frames& frames);
+  /// @throws Cancelled when `progress` returns false
+  ExactLogMap(const Laplacian& laplacian, const Frames& frames, const Progress& progress);
   /// @param source an active representative
   /// @return of the representatives
   Result query(int source, const Progress& progress) const;

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
 
 #include "algorithms/apex.h"
 #include "base/cross.h"
 #include "cover/geometry.h"
+#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -22,6 +24,9 @@ constexpr double on_line = 1e-11;
 constexpr double least_bend = 1e-9;
 /// Windows between two calls of `progress`.
 constexpr std::int64_t between_reports = 65536;
+/// Most windows per vertex, and beside that. A torus of 16,000 points has 83 per vertex, and they grow with the root of
+/// the number of vertices. In thin triangles lines wind around their tips without an end.
+constexpr std::int64_t most_per_vertex = 2000, most_windows = 1'000'000;
 
 Vector2d polar(double length, double angle) {
   return length * Vector2d(std::cos(angle), std::sin(angle));
@@ -52,18 +57,25 @@ GeodesicWindows::GeodesicWindows(const IntrinsicTriangulation& surface, int expo
   distance_[source] = 0;
   sectors_ = sectorsAt(source);
   leaveSource();
-  std::int64_t done = 0;
+  std::int64_t done = 0, settled = 0;
   while (!windows_.empty() || !bends_.empty()) {
     if (!bends_.empty() && (windows_.empty() || bends_.top().key <= windows_.top().key)) {
       const Bend next = bends_.top();
       bends_.pop();
-      if (next.key == distance_[next.vertex]) bend(next.vertex);
+      if (next.key != distance_[next.vertex]) continue;
+      ++settled;
+      bend(next.vertex);
       continue;
     }
     const Window window = windows_.top();
     windows_.pop();
     cross(window);
-    if (done++ % between_reports == 0) workers.report("windows", 0);
+    if (done++ % between_reports == 0) workers.report("paths", static_cast<double>(settled) / surface.vertices);
+    if (done > most_windows + most_per_vertex * surface.vertices)
+      throw SolverFailure(
+          "LogMapSolver::query: " + std::to_string(done) +
+          " windows were followed without an end, as in thin triangles or around a vertex of thousands; "
+          "take the method heat");
   }
 }
 
@@ -91,36 +103,6 @@ std::vector<Sector> GeodesicWindows::sectorsAt(int vertex) const {
     ++fan;
   }
   return sectors;
-}
-
-/// Whether two fans have the same neighbours.
-bool GeodesicWindows::areFrontAndBack(const std::vector<Sector>& sectors, int fan, int other) const {
-  const auto headsOf = [&](int number) {
-    std::vector<int> heads;
-    for (const Sector& sector : sectors)
-      if (sector.fan == number) heads.push_back(head(surface_, sector.side));
-    std::sort(heads.begin(), heads.end());
-    return heads;
-  };
-  return headsOf(fan) == headsOf(other);
-}
-
-/// The faces that are connected with the face of a side.
-std::vector<std::uint8_t> GeodesicWindows::sheetOf(int side) const {
-  std::vector<std::uint8_t> seen(surface_.faces.size(), 0);
-  std::vector<int> faces = {side / 3};
-  seen[side / 3] = 1;
-  while (!faces.empty()) {
-    const int face = faces.back();
-    faces.pop_back();
-    for (int s = 3 * face; s < 3 * face + 3; ++s) {
-      const int mate = surface_.glue[s];
-      if (mate < 0 || seen[mate / 3] != 0) continue;
-      seen[mate / 3] = 1;
-      faces.push_back(mate / 3);
-    }
-  }
-  return seen;
 }
 
 Vector2d GeodesicWindows::apexOf(const Door& door) const {
@@ -155,14 +137,10 @@ void GeodesicWindows::leave(const Sector& sector, double low, double high, const
   add(started, nullptr);
 }
 
-/// Starts windows in all directions. If front and back of the surface are not connected, they are mirror images, and
-/// one is enough.
+/// Starts windows in all directions.
 void GeodesicWindows::leaveSource() {
-  if (sectors_.empty()) return;
-  const std::vector<std::uint8_t> sheet = sheetOf(sectors_[0].side);
   for (const Sector& sector : sectors_)
-    if (sheet[sector.side / 3] != 0 || !areFrontAndBack(sectors_, sector.fan, 0))
-      leave(sector, 0, sector.angle, {.before = 0, .turn = sector.begin, .has_bent = false});
+    leave(sector, 0, sector.angle, {.before = 0, .turn = sector.begin, .has_bent = false});
 }
 
 /// Starts windows where a path bends: in the directions more than half a circle from the way back, on both sides.
@@ -184,7 +162,7 @@ void GeodesicWindows::bend(int vertex) {
       if (low < high) leave(sector, low, high, window);
     };
     if (sector.fan != from->fan) {
-      if (!areFrontAndBack(sectors, sector.fan, from->fan)) leaveBetween(-infinity, infinity);
+      leaveBetween(-infinity, infinity);
     } else if (surface_.glue[first->side] < 0) {
       leaveBetween(back + half, infinity);
       leaveBetween(-infinity, back - half);

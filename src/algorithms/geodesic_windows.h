@@ -29,6 +29,7 @@ class GeodesicWindows {
   /// Follows all windows.
   /// @param surface is borrowed; sides may have no mate, -1
   /// @param exponent lengths are computed in units of 2^exponent
+  /// @throws SolverFailure where windows do not end
   /// @throws Cancelled when the workers' progress returns false
   GeodesicWindows(const IntrinsicTriangulation& surface, int exponent, int source, const Workers& workers);
 
@@ -81,8 +82,6 @@ class GeodesicWindows {
 
   double lengthOf(int side) const { return surface_.length[side] / unit_; }
   std::vector<Sector> sectorsAt(int vertex) const;
-  bool areFrontAndBack(const std::vector<Sector>& sectors, int fan, int other) const;
-  std::vector<std::uint8_t> sheetOf(int side) const;
   Eigen::Vector2d apexOf(const Door& door) const;
   void leave(const Sector& sector, double low, double high, const Window& window);
   void leaveSource();

@@ -167,7 +167,7 @@ LogMapSolver::LogMapSolver(const Laplacian& laplacian, const Frames& frames, con
   if (options.method == LogMapMethod::heat) {
     state->report = state->heat.emplace(heatLogMap(laplacian, frames, options)).heat.report();
   } else {
-    state->exact.emplace(laplacian, frames);
+    state->exact.emplace(laplacian, frames, options.solver.progress);
     state->report.method = "exact";
     state->report.unknowns = std::ssize(state->status);
     state->report.bytes = state->exact->bytes();

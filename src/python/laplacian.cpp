@@ -117,7 +117,11 @@ void addLaplacian(py::module_& module) {
   addMembers(type);
   py::class_<ScanStructure>(module, "ScanStructure");
   module.def("build_cloud", &buildCloud);
-  module.def("hovering_warning", [](const Doubles& points) { return hoveringWarning(pointsOf(points)); });
+  module.def("hovering_warning", [](const Doubles& points) {
+    const Points own = pointsOf(points);
+    const py::gil_scoped_release release;
+    return hoveringWarning(own);
+  });
   module.def("build_mesh", &buildMesh);
   module.def("image_structure", &imageStructure);
   module.def("is_depth_image", [](const Doubles& points, int width, int height, const Eigen::Vector3d& origin) {

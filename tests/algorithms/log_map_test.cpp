@@ -3,8 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "shapes/random.h"
@@ -30,7 +34,7 @@ Eigen::MatrixX2d mapAlongX(const Points& points, const Triangles& triangles, int
   return result;
 }
 
-/// A grid of points (i, j), i and j in [0, n], jittered inside, with diagonals in random directions; cells for which
+/// A grid of points (i, j), i and j in [0, n], jittered inside, all diagonals in one direction; cells for which
 /// `has` is false are left out.
 struct Grid {
   Points points;
@@ -138,6 +142,7 @@ TEST(ExactLogMap, HasTheLengthsAndDirectionsOfShortestPaths) {
   const Laplacian laplacian = meshLaplacian(points, ball.triangles);
   const PathSolver paths(laplacian);
   const LogMap map = LogMapSolver(laplacian, meshFrames(points, ball.triangles)).query(50);
+  int compared = 0;
   for (int i = 0; i < points.rows(); i += 7) {
     if (i == 50) continue;
     const SurfacePath path = paths.query(50, i);
@@ -145,10 +150,67 @@ TEST(ExactLogMap, HasTheLengthsAndDirectionsOfShortestPaths) {
     EXPECT_LT(map.coordinates.row(i).norm(), path.length * (1 + 1e-9));
     EXPECT_GT(map.coordinates.row(i).norm(), path.length * (1 - 0.01));
     if (map.coordinates.row(i).norm() < path.length * (1 - 1e-9)) continue;
+    ++compared;
     const RowVector3d way = path.points.row(1) - path.points.row(0);
     const double angle = std::atan2(way.dot(map.second), way.dot(map.first));
     const double found = std::atan2(map.coordinates(i, 1), map.coordinates(i, 0));
     EXPECT_LT(std::abs(std::remainder(found - angle, 2 * pi)), 0.02) << i;
+  }
+  EXPECT_GT(compared, 60);
+}
+
+/// The surface of a box of 2 x 1 x 1 on a grid of a fifth, and a wall across its middle.
+std::pair<Points, Triangles> boxWithAWall() {
+  std::map<std::array<int, 3>, int> numbers;
+  std::vector<Eigen::RowVector3i> triangles;
+  const auto add = [&](const Eigen::Array3i& corner, const Eigen::Array3i& a, const Eigen::Array3i& b) {
+    const auto at = [&](const Eigen::Array3i& p) {
+      return numbers.emplace(std::array{p[0], p[1], p[2]}, static_cast<int>(numbers.size())).first->second;
+    };
+    triangles.push_back({at(corner), at(corner + a), at(corner + a + b)});
+    triangles.push_back({at(corner), at(corner + a + b), at(corner + b)});
+  };
+  const Eigen::Array3i size(10, 5, 5);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    Eigen::Array3i along_u = Eigen::Array3i::Zero(), along_v = along_u, corner = along_u;
+    along_u[u] = along_v[v] = 1;
+    for (const int level : axis == 0 ? std::vector<int>{0, 5, 10} : std::vector<int>{0, 5}) {
+      corner[axis] = level;
+      for (corner[u] = 0; corner[u] < size[u]; ++corner[u])
+        for (corner[v] = 0; corner[v] < size[v]; ++corner[v]) add(corner, along_u, along_v);
+    }
+  }
+  Points points(std::ssize(numbers), 3);
+  for (const auto& [place, number] : numbers) points.row(number) << place[0] / 5.0, place[1] / 5.0, place[2] / 5.0;
+  Triangles faces(std::ssize(triangles), 3);
+  for (std::size_t f = 0; f < triangles.size(); ++f) faces.row(static_cast<Eigen::Index>(f)) = triangles[f];
+  return {points, faces};
+}
+
+// A box with a wall inside, which is reached through vertices alone.
+TEST(ExactLogMap, IsSymmetricWhereAWallMeetsABox) {
+  const auto [points, triangles] = boxWithAWall();
+  const Laplacian laplacian = meshLaplacian(points, triangles);
+  const LogMapSolver solver(laplacian, meshFrames(points, triangles));
+  const auto n = static_cast<int>(points.rows());
+  Eigen::MatrixXd distance(n, n);
+  for (int i = 0; i < n; ++i) distance.col(i) = solver.query(i).coordinates.rowwise().norm();
+  EXPECT_LT((distance - distance.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  const PathSolver paths(laplacian);
+  for (int i = 1; i < n; i += 3) EXPECT_LT(distance(i, 0), paths.query(0, i).length * (1 + 1e-9)) << i;
+}
+
+TEST(ExactLogMap, EndsOrIsRefusedInThinTriangles) {
+  Points points(3, 3);
+  points << 0, 0, 0, 1, 0, 0, 2, 0, 0;
+  Triangles flat(1, 3);
+  flat << 0, 1, 2;
+  const LogMapSolver solver(meshLaplacian(points, flat), meshFrames(points, flat));
+  try {
+    EXPECT_NEAR(solver.query(1).coordinates.row(2).norm(), 1, 1e-6);
+  } catch (const SolverFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("take the method heat"), std::string::npos);
   }
 }
 

@@ -48,7 +48,16 @@ std::string between(std::string_view text, char first, char last) {
   return begin == text.npos ? "" : std::string(text.substr(begin + 1, text.find(last, begin + 1) - begin - 1));
 }
 
-/// The EPSG code of the projected, otherwise of the geographic system, 0 if none is named.
+/// A text up to its first NUL, with blanks in place of control characters, which would reach the terminal.
+std::string printable(std::string_view text) {
+  std::string result(text.substr(0, text.find('\0')));
+  for (char& c : result)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return result;
+}
+
+/// The EPSG code of the projected, otherwise of the geographic system, 0 if none is named or the projection is a user's
+/// own.
 /// @param keys GeoTIFF's GeoKeyDirectoryTag: four numbers, then four of each key, the first its name, the last its
 /// value
 int epsgCode(std::string_view keys) {
@@ -56,6 +65,8 @@ int epsgCode(std::string_view keys) {
   int code = 0;
   for (std::size_t at = 8; at + 8 <= keys.size(); at += 8) {
     const int key = numberAt(keys, at), value = numberAt(keys, at + 6);
+    if (numberAt(keys, at + 2) != 0) continue;  // the value lies elsewhere
+    if (key == projected && value == user_defined) return 0;
     if (value != user_defined && (key == projected || (key == geographic && code == 0))) code = value;
   }
   return code;
@@ -90,9 +101,9 @@ std::string lasReferenceSystem(const tufted::Geometry& geometry) {
     const std::string_view body = rest.substr(head_bytes, length);
     rest.remove_prefix(std::min(rest.size(), head_bytes + length));
     if (!is_projection) continue;
-    if (number == wkt) by_wkt = between(body, '"', '"');
+    if (number == wkt) by_wkt = printable(between(body, '"', '"'));
     if (const int code = number == geo_keys ? epsgCode(body) : 0; code > 0) by_code = "EPSG:" + std::to_string(code);
-    if (number == geo_text) by_text = std::string(body.substr(0, body.find('|')));
+    if (number == geo_text) by_text = printable(body.substr(0, body.find('|')));
   }
   return !by_wkt.empty() ? by_wkt : !by_code.empty() ? by_code : by_text;
 }

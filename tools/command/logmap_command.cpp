@@ -26,7 +26,8 @@ The two coordinates of a point are its geodesic distance from the source, in the
 leaves the source. The first axis is --axis, projected to the tangent plane of the source; without --axis it is any
 tangent. The second axis is perpendicular to the first, counterclockwise seen from the normal of `tufted normals`.
 
-  exact  shortest paths over the triangles, exact to rounding, in a time that grows with N^1.5
+  exact  shortest paths over the triangles, in a time that grows with N^1.5; refused where triangles are so thin that
+         lines wind without an end
   heat   the vector heat method, for millions of points: angles are off by some degrees
 
 Files in DIR, which replace older ones when all are complete:
@@ -54,6 +55,7 @@ struct Settings {
 
 void check(Settings& settings, const Operator& source) {
   checkFrames(source);
+  if (settings.options.method == tufted::LogMapMethod::exact) settings.source.stages = {{"paths", 100}};
   settings.places = settings.points.places(source);
   if (settings.places.size() != 1)
     throw tufted::InvalidInput(std::to_string(settings.places.size()) +

@@ -33,7 +33,8 @@ int runCommand(const Run& run) {
     return fail(withoutClass(error.what()), exit_usage);
   } catch (const std::bad_alloc&) {
     return fail(
-        "out of memory: fewer points take less (--thin, --crop), and `tufted laplacian --memory` builds by tiles",
+        "out of memory: of a cloud, fewer points take less (--thin, --crop), and `tufted laplacian --memory` builds "
+        "tiles",
         exit_failed);
   } catch (const std::exception& error) {
     return fail(error.what(), exit_failed);

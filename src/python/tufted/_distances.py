@@ -241,8 +241,9 @@ class Distances:
         source: index of an active point.
         axis: direction of the first coordinate, 3 values; None: the tangent at the source, of frames with the normals
         of normals().
-        method: "exact", shortest paths over the triangles, exact to rounding, in a time that grows with N^1.5, or "heat",
-        the vector heat method: fast queries on millions of points, but angles are off by some degrees.
+        method: "exact", shortest paths over the triangles, in a time that grows with N^1.5, refused where triangles are so
+        thin that lines wind without an end, or "heat", the vector heat method: fast queries on millions of points, but
+        angles are off by some degrees.
         time_step: of heat, as in extend(); None: 4.
         Returns coordinates (N x 2, distance times cosine and sine of the angle; NaN where no path leads) and axes (2 x
         3, the directions of the coordinates at the source).
