@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "algorithms/apex.h"
 #include "base/cross.h"
@@ -54,6 +55,7 @@ GeodesicWindows::GeodesicWindows(const IntrinsicTriangulation& surface, int expo
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
   std::vector<int> fill(offset_.begin(), offset_.end() - 1);
   for (int side = 0; side < std::ssize(sides_); ++side) sides_[fill[tail(surface, side)]++] = side;
+  is_manifold_ = isManifold();
   distance_[source] = 0;
   sectors_ = sectorsAt(source);
   leaveSource();
@@ -105,6 +107,33 @@ std::vector<Sector> GeodesicWindows::sectorsAt(int vertex) const {
   return sectors;
 }
 
+/// Whether at most two triangles meet at each edge.
+bool GeodesicWindows::isManifold() const {
+  std::vector<int> heads;
+  for (std::size_t v = 0; v + 1 < offset_.size(); ++v) {
+    heads.clear();
+    for (int i = offset_[v]; i < offset_[v + 1]; ++i) heads.push_back(head(surface_, sides_[i]));
+    std::sort(heads.begin(), heads.end());
+    for (std::size_t i = 2; i < heads.size(); ++i)
+      if (heads[i] == heads[i - 2]) return false;
+  }
+  return true;
+}
+
+/// Whether two fans are front and back of one part of the surface. Paths on the one are mirror images of those on the
+/// other, unless front and back are connected with different parts where more than two triangles meet.
+bool GeodesicWindows::areFrontAndBack(const std::vector<Sector>& sectors, int fan, int other) const {
+  if (!is_manifold_) return false;
+  const auto headsOf = [&](int number) {
+    std::vector<int> heads;
+    for (const Sector& sector : sectors)
+      if (sector.fan == number) heads.push_back(head(surface_, sector.side));
+    std::sort(heads.begin(), heads.end());
+    return heads;
+  };
+  return headsOf(fan) == headsOf(other);
+}
+
 Vector2d GeodesicWindows::apexOf(const Door& door) const {
   const double across = lengthOf(door.side), to_right = lengthOf(nextSide(door.side)),
                to_left = lengthOf(previousSide(door.side));
@@ -137,10 +166,14 @@ void GeodesicWindows::leave(const Sector& sector, double low, double high, const
   add(started, nullptr);
 }
 
-/// Starts windows in all directions.
+/// Starts windows in all directions, on one side of the surface if the other is its mirror image.
 void GeodesicWindows::leaveSource() {
-  for (const Sector& sector : sectors_)
-    leave(sector, 0, sector.angle, {.before = 0, .turn = sector.begin, .has_bent = false});
+  int checked = 0;
+  bool is_mirrored = false;
+  for (const Sector& sector : sectors_) {
+    if (sector.fan != std::exchange(checked, sector.fan)) is_mirrored = areFrontAndBack(sectors_, sector.fan, 0);
+    if (!is_mirrored) leave(sector, 0, sector.angle, {.before = 0, .turn = sector.begin, .has_bent = false});
+  }
 }
 
 /// Starts windows where a path bends: in the directions more than half a circle from the way back, on both sides.
@@ -155,6 +188,8 @@ void GeodesicWindows::bend(int vertex) {
   const double total = std::prev(last)->begin + std::prev(last)->angle - first->begin;
   const double half = std::numbers::pi + least_bend / 2;
   const Window window = {.before = distance_[vertex], .turn = turn_[vertex], .has_bent = true};
+  int checked = from->fan;
+  bool is_mirrored = false;
   for (const Sector& sector : sectors) {
     const auto leaveBetween = [&](double low, double high) {
       low = std::max(low - sector.begin, 0.0);
@@ -162,7 +197,9 @@ void GeodesicWindows::bend(int vertex) {
       if (low < high) leave(sector, low, high, window);
     };
     if (sector.fan != from->fan) {
-      leaveBetween(-infinity, infinity);
+      if (sector.fan != std::exchange(checked, sector.fan))
+        is_mirrored = areFrontAndBack(sectors, sector.fan, from->fan);
+      if (!is_mirrored) leaveBetween(-infinity, infinity);
     } else if (surface_.glue[first->side] < 0) {
       leaveBetween(back + half, infinity);
       leaveBetween(-infinity, back - half);
@@ -210,14 +247,15 @@ void GeodesicWindows::cross(const Window& window) {
           window.has_bent ? window.turn : window.turn + std::atan2(apex.y(), apex.x()),
           {left_side, between(door.left - apex, Vector2d(-apex))});
     // Of two windows that see the vertex through this side, the one from which it is nearer goes on on both sides of
-    // it, the other one on its own side only, as shortest paths do not cross.
+    // it, the other one on its own side only, as shortest paths do not cross. Where paths change their sheet, that has
+    // lost some of them.
     const double to_left = std::abs(tufted::cross(apex, door.left)),
                  to_right = std::abs(tufted::cross(apex, door.right));
     const double place = to_left / (to_left + to_right);
     Nearest& nearest = nearest_[door.side];
     if (distance < nearest.distance)
       nearest = {distance, place};
-    else if (distance > nearest.distance + on_line)
+    else if (is_manifold_ && distance > nearest.distance + on_line)
       (place < nearest.place ? passes_right : passes_left) = false;
   }
   Window next = window;

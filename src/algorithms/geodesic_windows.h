@@ -82,6 +82,8 @@ class GeodesicWindows {
 
   double lengthOf(int side) const { return surface_.length[side] / unit_; }
   std::vector<Sector> sectorsAt(int vertex) const;
+  bool isManifold() const;
+  bool areFrontAndBack(const std::vector<Sector>& sectors, int fan, int other) const;
   Eigen::Vector2d apexOf(const Door& door) const;
   void leave(const Sector& sector, double low, double high, const Window& window);
   void leaveSource();
@@ -98,6 +100,7 @@ class GeodesicWindows {
   std::vector<int> offset_, sides_;  ///< the sides by the vertex where they start
   std::vector<Nearest> nearest_;     ///< of each side
   std::vector<Sector> sectors_;
+  bool is_manifold_ = true;
   std::priority_queue<Window> windows_;
   std::priority_queue<Bend> bends_;
 };
