@@ -55,8 +55,8 @@ struct TileOptions {
   TileProcesses processes = {};        ///< the process that calls, and the others; by default it is the only one
 };
 
-/// What laplacianByTiles() did. Of several processes, the counts of rows, of entries and of builds, the area and the margin are
-/// those of this one.
+/// What laplacianByTiles() did. Of several processes, the counts of rows, of entries and of builds, the area and the
+/// margin are those of this one.
 struct TileReport {
   std::int64_t points = 0;       ///< number of points
   std::int64_t active = 0;       ///< points that take part
