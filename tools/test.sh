@@ -129,7 +129,7 @@ else
 fi
 if [[ $extent != quick ]]; then
   step "reference of the headers" cmake --build build/release --target docs || true
-  consumer installed build/release -DCONSUMER_IO=ON -DCONSUMER_PCL=ON || true
+  consumer installed build/release -DCONSUMER_IO=ON -DCONSUMER_PCL=ON -DCONSUMER_MPI=ON || true
   preset sanitized || true
 fi
 if [[ $extent == all ]]; then

@@ -17,8 +17,9 @@ template <class Object, PetscErrorCode (*destroy)(Object*)>
 class PetscHandle {
  public:
   PetscHandle() = default;
-  explicit PetscHandle(Object object) : object_(object) {}
+  /// Takes the object of another handle, which has none then.
   PetscHandle(PetscHandle&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+  /// Exchanges the objects of two handles.
   PetscHandle& operator=(PetscHandle&& other) noexcept {
     std::swap(object_, other.object_);
     return *this;

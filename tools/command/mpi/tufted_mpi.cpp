@@ -323,12 +323,16 @@ class CommandLine {
           addSolve(made);
           result_.arrays = {{"u", {kept_.back().get()}}};
         });
-    auto* const f = command.add_option_group("f");
-    f->require_option(1);
-    f->add_option("--values", settings_.values, "f, a .npy file of N values; process 0 reads it as a whole")
-        ->type_name("NPY");
-    f->add_option("--coordinate", settings_.coordinate, "f is a coordinate of the points")
-        ->check(CLI::IsMember({"x", "y", "z"}));
+    const CLI::Option* const values =
+        command.add_option("--values", settings_.values, "f, a .npy file of N values; process 0 reads it as a whole")
+            ->type_name("NPY");
+    const CLI::Option* const coordinate =
+        command.add_option("--coordinate", settings_.coordinate, "f is a coordinate of the points")
+            ->check(CLI::IsMember({"x", "y", "z"}));
+    command.parse_complete_callback([values, coordinate] {
+      if (values->count() + coordinate->count() != 1)
+        throw CLI::RequiredError("exactly one of --values and --coordinate");
+    });
   }
 
   void addHarmonic() {
