@@ -5,7 +5,6 @@
 #include <numbers>
 #include <numeric>
 #include <string>
-#include <utility>
 
 #include "algorithms/apex.h"
 #include "base/cross.h"
@@ -120,24 +119,19 @@ bool GeodesicWindows::isManifold() const {
   return true;
 }
 
-/// Whether two fans are front and back of one part of the surface. Paths on the one are mirror images of those on the
-/// other, unless front and back are connected with different parts where more than two triangles meet.
-bool GeodesicWindows::areFrontAndBack(const std::vector<Sector>& sectors, int fan, int other) const {
-  if (!is_manifold_) return false;
-  const auto headsOf = [&](int number) {
-    std::vector<int> heads;
-    for (const Sector& sector : sectors)
-      if (sector.fan == number) heads.push_back(head(surface_, sector.side));
-    std::sort(heads.begin(), heads.end());
-    return heads;
-  };
-  return headsOf(fan) == headsOf(other);
-}
-
-Vector2d GeodesicWindows::apexOf(const Door& door) const {
-  const double across = lengthOf(door.side), to_right = lengthOf(nextSide(door.side)),
-               to_left = lengthOf(previousSide(door.side));
-  return apexLeftOf(door.left, door.right, to_left, to_right, 2 * triangleArea(across, to_right, to_left));
+/// Which fans are front and back of one part of the surface with a given one. Paths on the one are mirror images of
+/// those on the other, unless front and back are connected with different parts where more than two triangles meet.
+std::vector<std::uint8_t> GeodesicWindows::mirrorsOf(const std::vector<Sector>& sectors, int fan) const {
+  std::vector<std::vector<int>> heads;  // of each fan
+  for (const Sector& sector : sectors) {
+    heads.resize(static_cast<std::size_t>(sector.fan) + 1);
+    heads.back().push_back(head(surface_, sector.side));
+  }
+  for (std::vector<int>& of_fan : heads) std::sort(of_fan.begin(), of_fan.end());
+  std::vector<std::uint8_t> result;
+  for (int other = 0; other < std::ssize(heads); ++other)
+    result.push_back(is_manifold_ && other != fan && heads[other] == heads[fan] ? 1 : 0);
+  return result;
 }
 
 void GeodesicWindows::reach(int vertex, double distance, double turn, const Arrival& arrival) {
@@ -168,12 +162,10 @@ void GeodesicWindows::leave(const Sector& sector, double low, double high, const
 
 /// Starts windows in all directions, on one side of the surface if the other is its mirror image.
 void GeodesicWindows::leaveSource() {
-  int checked = 0;
-  bool is_mirrored = false;
-  for (const Sector& sector : sectors_) {
-    if (sector.fan != std::exchange(checked, sector.fan)) is_mirrored = areFrontAndBack(sectors_, sector.fan, 0);
-    if (!is_mirrored) leave(sector, 0, sector.angle, {.before = 0, .turn = sector.begin, .has_bent = false});
-  }
+  const std::vector<std::uint8_t> is_mirror = mirrorsOf(sectors_, 0);
+  for (const Sector& sector : sectors_)
+    if (is_mirror[sector.fan] == 0)
+      leave(sector, 0, sector.angle, {.before = 0, .turn = sector.begin, .has_bent = false});
 }
 
 /// Starts windows where a path bends: in the directions more than half a circle from the way back, on both sides.
@@ -188,8 +180,7 @@ void GeodesicWindows::bend(int vertex) {
   const double total = std::prev(last)->begin + std::prev(last)->angle - first->begin;
   const double half = std::numbers::pi + least_bend / 2;
   const Window window = {.before = distance_[vertex], .turn = turn_[vertex], .has_bent = true};
-  int checked = from->fan;
-  bool is_mirrored = false;
+  const std::vector<std::uint8_t> is_mirror = mirrorsOf(sectors, from->fan);
   for (const Sector& sector : sectors) {
     const auto leaveBetween = [&](double low, double high) {
       low = std::max(low - sector.begin, 0.0);
@@ -197,9 +188,7 @@ void GeodesicWindows::bend(int vertex) {
       if (low < high) leave(sector, low, high, window);
     };
     if (sector.fan != from->fan) {
-      if (sector.fan != std::exchange(checked, sector.fan))
-        is_mirrored = areFrontAndBack(sectors, sector.fan, from->fan);
-      if (!is_mirrored) leaveBetween(-infinity, infinity);
+      if (is_mirror[sector.fan] == 0) leaveBetween(-infinity, infinity);
     } else if (surface_.glue[first->side] < 0) {
       leaveBetween(back + half, infinity);
       leaveBetween(-infinity, back - half);
@@ -215,16 +204,9 @@ void GeodesicWindows::add(Window window, const Behind* behind) {
   const int side = window.door.side;
   if (side < 0) return;
   const Vector2d left = window.door.left, right = window.door.right;
-  const auto endOf = [&](const Vector2d& direction) -> Vector2d {
-    const double to_right = std::abs(tufted::cross(direction, right)),
-                 to_left = std::abs(tufted::cross(direction, left));
-    if (!(to_right + to_left > 0)) return right;
-    return (to_left * right + to_right * left) / (to_right + to_left);
-  };
-  const Vector2d low_end = endOf(window.low), high_end = endOf(window.high), along = high_end - low_end;
-  const double square = along.squaredNorm();
-  if (!(square > on_line * on_line)) return;
-  window.key = window.before + (low_end + std::clamp(-low_end.dot(along) / square, 0.0, 1.0) * along).norm();
+  const auto [low_end, high_end, distance] = partBetween(window.door, window.low, window.high);
+  if (!((high_end - low_end).squaredNorm() > on_line * on_line)) return;
+  window.key = window.before + distance;
   const auto isLonger = [&](int vertex, const Vector2d& at, const Vector2d& end) {
     return distance_[vertex] + (at - end).norm() + on_line < window.before + end.norm();
   };
@@ -238,9 +220,9 @@ void GeodesicWindows::add(Window window, const Behind* behind) {
 void GeodesicWindows::cross(const Window& window) {
   const Door& door = window.door;
   const int right_side = nextSide(door.side), left_side = previousSide(door.side);
-  const Vector2d apex = apexOf(door), direction = apex.normalized();
-  const double from_low = tufted::cross(window.low, apex), from_high = tufted::cross(window.high, apex);
-  bool passes_right = from_low >= -on_line, passes_left = from_high <= on_line;
+  const Vector2d apex = apexOf(surface_, unit_, door);
+  const Passing passing = passingOf(window.low, window.high, apex);
+  bool passes_right = passing.from_low >= -on_line, passes_left = passing.from_high <= on_line;
   if (passes_right && passes_left) {
     const double distance = window.before + apex.norm();
     reach(tail(surface_, left_side), distance,
@@ -261,13 +243,13 @@ void GeodesicWindows::cross(const Window& window) {
   Window next = window;
   if (passes_right) {
     next.door = {surface_.glue[right_side], apex, door.right};
-    next.high = from_low <= 0 ? window.low : from_high < 0 ? direction : window.high;
+    next.high = passing.right_of;
     const Behind behind{tail(surface_, door.side), door.left, true};
     add(next, &behind);
   }
   if (passes_left) {
     next.door = {surface_.glue[left_side], door.left, apex};
-    next.low = from_high >= 0 ? window.high : from_low > 0 ? direction : window.low;
+    next.low = passing.left_of;
     next.high = window.high;
     const Behind behind{head(surface_, door.side), door.right, false};
     add(next, &behind);

@@ -7,6 +7,7 @@
 #include <queue>
 #include <vector>
 
+#include "algorithms/line_windows.h"
 #include "base/parallel.h"
 #include "tufted/intrinsic_triangulation.h"
 
@@ -41,11 +42,7 @@ class GeodesicWindows {
   double distance(int vertex) const { return distance_[vertex] * unit_; }
 
  private:
-  /// A face beyond a side, in the plane of a line with its last bend, or the source, at the origin.
-  struct Door {
-    int side;  ///< from `left` to `right`, in the face
-    Eigen::Vector2d left, right;
-  };
+  /// Straight lines from the last bend of their path, or from the source, which is the origin.
   struct Window {
     double key = 0;         ///< length of the shortest path through it
     double before = 0;      ///< length of the path to its last bend
@@ -83,8 +80,7 @@ class GeodesicWindows {
   double lengthOf(int side) const { return surface_.length[side] / unit_; }
   std::vector<Sector> sectorsAt(int vertex) const;
   bool isManifold() const;
-  bool areFrontAndBack(const std::vector<Sector>& sectors, int fan, int other) const;
-  Eigen::Vector2d apexOf(const Door& door) const;
+  std::vector<std::uint8_t> mirrorsOf(const std::vector<Sector>& sectors, int fan) const;
   void leave(const Sector& sector, double low, double high, const Window& window);
   void leaveSource();
   void bend(int vertex);

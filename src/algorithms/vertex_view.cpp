@@ -99,7 +99,7 @@ PlaceInCover VertexView::follow(const Match& match) const {
   Door door = doorOf(sector);
   if (isBefore(door.right, door.left)) return placeIn(sector.side, {Vector2d::Zero(), door.right, door.left}, point);
   for (std::int64_t steps = 0; steps < std::ssize(cover_.glue); ++steps) {
-    const Vector2d apex = apexOf(door);
+    const Vector2d apex = apexOf(cover_, wedge_.unit, door);
     const double offset = tufted::cross(along, apex);
     const bool is_left = std::abs(offset) <= wedge_.on_line ? match.vertices_on_line > 0 : offset > 0;
     const Vector2d right = is_left ? door.right : apex, left = is_left ? apex : door.left;
@@ -109,18 +109,12 @@ PlaceInCover VertexView::follow(const Match& match) const {
   return {0, -1, {}};
 }
 
-VertexView::Door VertexView::doorOf(const Sector& sector) const {
+Door VertexView::doorOf(const Sector& sector) const {
   const double right = lengthOf(sector.side), left = lengthOf(previousSide(sector.side)),
                across = lengthOf(nextSide(sector.side));
   const Vector2d right_end(right, 0);
   return {cover_.glue[nextSide(sector.side)],
           apexLeftOf(Vector2d::Zero(), right_end, left, across, 2 * triangleArea(right, left, across)), right_end};
-}
-
-Vector2d VertexView::apexOf(const Door& door) const {
-  const double across = lengthOf(door.side), to_right = lengthOf(nextSide(door.side)),
-               to_left = lengthOf(previousSide(door.side));
-  return apexLeftOf(door.left, door.right, to_left, to_right, 2 * triangleArea(across, to_right, to_left));
 }
 
 void VertexView::addImage(int vertex, const Image& image) {
@@ -144,16 +138,8 @@ void VertexView::add(Window window) {
   const double on_line = wedge_.on_line;
   const int side = window.door.side;
   const Vector2d left = window.door.left, right = window.door.right;
-  const auto endOf = [&](const Vector2d& direction) -> Vector2d {
-    const double to_right = std::abs(tufted::cross(direction, right)),
-                 to_left = std::abs(tufted::cross(direction, left));
-    if (!(to_right + to_left > 0)) return right;
-    return (to_left * right + to_right * left) / (to_right + to_left);
-  };
-  const Vector2d low_end = endOf(window.low), high_end = endOf(window.high), along = high_end - low_end;
-  const double square = along.squaredNorm();
-  const double share = square > 0 ? std::clamp(-low_end.dot(along) / square, 0.0, 1.0) : 0.0;
-  window.distance = (low_end + share * along).norm();
+  const auto [low_end, high_end, distance] = partBetween(window.door, window.low, window.high);
+  window.distance = distance;
   if (!(window.distance <= (1 + Wedge::same_triangle) * wedge_.length[0])) return;
   const auto isLonger = [&](int vertex, const Vector2d& at, const Vector2d& end) {
     return nearest(vertex) + (at - end).norm() + on_line < end.norm();
@@ -175,21 +161,15 @@ void VertexView::add(Window window) {
 void VertexView::cross(const Window& window) {
   const Door& door = window.door;
   const int right_side = nextSide(door.side), left_side = previousSide(door.side);
-  const Vector2d apex = apexOf(door), direction = apex.normalized();
+  const Vector2d apex = apexOf(cover_, wedge_.unit, door);
   shorten(tail(cover_, left_side), std::min(nearest(tail(cover_, door.side)) + lengthOf(left_side),
                                             nearest(head(cover_, door.side)) + lengthOf(right_side)));
-  const double from_low = tufted::cross(window.low, apex), from_high = tufted::cross(window.high, apex);
-  const bool is_left = from_low >= -wedge_.on_line, is_right = from_high <= wedge_.on_line;
+  const Passing passing = passingOf(window.low, window.high, apex);
+  const bool is_left = passing.from_low >= -wedge_.on_line, is_right = passing.from_high <= wedge_.on_line;
   if (is_left && is_right)
     addImage(tail(cover_, left_side), {apex.norm(), window.angle + std::atan2(apex.y(), apex.x())});
-  if (is_left) {
-    const Vector2d high = from_low <= 0 ? window.low : from_high < 0 ? direction : window.high;
-    add({0, window.angle, {cover_.glue[right_side], apex, door.right}, window.low, high});
-  }
-  if (is_right) {
-    const Vector2d low = from_high >= 0 ? window.high : from_low > 0 ? direction : window.low;
-    add({0, window.angle, {cover_.glue[left_side], door.left, apex}, low, window.high});
-  }
+  if (is_left) add({0, window.angle, {cover_.glue[right_side], apex, door.right}, window.low, passing.right_of});
+  if (is_right) add({0, window.angle, {cover_.glue[left_side], door.left, apex}, passing.left_of, window.high});
 }
 
 /// The place of a point in a face.

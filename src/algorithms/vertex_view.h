@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "algorithms/line_windows.h"
 #include "algorithms/place_in_cover.h"
 #include "tufted/intrinsic_triangulation.h"
 
@@ -76,12 +77,8 @@ class VertexView {
   struct Image {
     double distance, angle;
   };
-  /// A face beyond a side, in the plane with the vertex at the origin and the first side of a sector along x.
-  struct Door {
-    int side;  ///< from `left` to `right`, in the face
-    Eigen::Vector2d left, right;
-  };
-  /// Directions that lead through a door.
+  /// Directions that lead through a door, in the plane with the vertex at the origin and the first side of a sector
+  /// along x.
   struct Window {
     double distance;
     double angle;  ///< direction of the sector's side
@@ -93,7 +90,6 @@ class VertexView {
 
   double lengthOf(int side) const { return cover_.length[side] / wedge_.unit; }
   Door doorOf(const Sector& sector) const;
-  Eigen::Vector2d apexOf(const Door& door) const;
   void addImage(int vertex, const Image& image);
   void shorten(int vertex, double distance);
   double nearest(int vertex) const;
