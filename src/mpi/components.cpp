@@ -1,7 +1,6 @@
 #include "mpi/components.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/disjoint_sets.h"
 #include "base/sort_unique.h"

@@ -152,6 +152,16 @@ void assemble(MPI_Comm comm, const NumberedRows& rows, DistributedLaplacian& res
   check(MatAssemblyEnd(L, MAT_FINAL_ASSEMBLY));
 }
 
+/// Gives coincident points the values of their representatives. @param by_point one value per point of the source
+void copyToCoincident(const DistributedLaplacian& laplacian, Vec by_point) {
+  std::vector<std::int64_t> copies, originals;
+  for (const auto& [point, representative] : laplacian.coincident) {
+    copies.push_back(point);
+    originals.push_back(representative);
+  }
+  setAt(by_point, copies, valuesAt(by_point, originals));
+}
+
 }  // namespace
 
 PointSource sourceOf(MPI_Comm comm, const PointsRef& points) {
@@ -205,12 +215,7 @@ PetscVector valuesByPoint(const DistributedLaplacian& laplacian, Vec values) {
   std::fill(own.begin(), own.end(), std::nan(""));
   setLocal(result.get(), own);
   setAt(result.get(), laplacian.point, localOf(values));
-  std::vector<std::int64_t> copies, originals;
-  for (const auto& [point, representative] : laplacian.coincident) {
-    copies.push_back(point);
-    originals.push_back(representative);
-  }
-  setAt(result.get(), copies, valuesAt(result.get(), originals));
+  copyToCoincident(laplacian, result.get());
   return result;
 }
 
@@ -226,15 +231,10 @@ std::vector<PetscInt> rowsOf(const DistributedLaplacian& laplacian, const std::v
     if (point < 0 || point >= laplacian.report.points)
       throw InvalidInput("rowsOf: point " + std::to_string(point) + ", must be in [0, " +
                          std::to_string(laplacian.report.points) + ")");
-  std::vector<std::int64_t> copies, originals;
-  for (const auto& [point, representative] : laplacian.coincident) {
-    copies.push_back(point);
-    originals.push_back(representative);
-  }
   PetscVector rows;
   check(VecDuplicate(laplacian.row.get(), rows.make()));
   check(VecCopy(laplacian.row.get(), rows.get()));
-  setAt(rows.get(), copies, valuesAt(laplacian.row.get(), originals));
+  copyToCoincident(laplacian, rows.get());
   const std::vector<double> found = valuesAt(rows.get(), points);
   return {found.begin(), found.end()};
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "../support/refusal.h"
 #include "tufted/components.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
@@ -21,6 +22,8 @@
 
 namespace tufted {
 namespace {
+
+using support::refusal;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -291,17 +294,6 @@ TEST(DistributedSolves, SpectrumIsThatOfTheWhole) {
       VecDot(product.get(), found.vectors[j].get(), &dot);
       EXPECT_NEAR(dot, i == j ? 1 : 0, 1e-7);
     }
-}
-
-/// The message of InvalidInput that is thrown in every process.
-template <class Call>
-std::string refusal(const Call& call) {
-  try {
-    call();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "not refused";
 }
 
 TEST(DistributedSolves, RefuseMistakesInEveryProcess) {

@@ -52,7 +52,7 @@ struct DistributedLaplacian {
   std::vector<std::int64_t> point;  ///< of each row of this process
   std::vector<Boundary> boundary;   ///< of each row of this process
   Points normals;                   ///< of each row of this process, rows x 3, of arbitrary sign
-  /// Of each row of this process its connected component, 0 to components - 1, larger areas first.
+  /// The connected component of each row of this process, from 0 to components - 1; larger areas come first.
   std::vector<PetscInt> component;
   PetscInt components = 0;  ///< number of connected components
   /// Pairs (point, representative) of the coincident points that this process has found.

@@ -49,7 +49,7 @@ struct Settings {
   std::filesystem::path file, out;
   tufted::ReadAs as = tufted::ReadAs::automatic;
   tufted::TileOptions tiles;
-  // Of one subcommand each.
+  // Each of these belongs to one subcommand.
   std::string coordinate;
   std::filesystem::path values, pins;
   int count = 10;
@@ -230,8 +230,13 @@ class CommandLine {
 
   void run() {
     const auto start = std::chrono::steady_clock::now();
-    inProcess0([&] { checkInputs(tufted::sourceOf(settings_.file, settings_.as).size); });
-    const tufted::FileSource source = tufted::sourceOf(settings_.file, settings_.as);
+    tufted::FileSource source;
+    const auto open = [&] { source = tufted::sourceOf(settings_.file, settings_.as); };
+    inProcess0([&] {
+      open();
+      checkInputs(source.size);
+    });
+    if (processNumber() != 0) open();
     settings_.tiles.folder = existingFolder(settings_.out);
     const auto laplacian = tufted::distributedLaplacian(PETSC_COMM_WORLD, source, settings_.tiles);
     compute_(laplacian, source);
@@ -368,7 +373,7 @@ class CommandLine {
 
   CLI::App app_;
   Settings settings_;
-  // Of the subcommand that is given:
+  // What the subcommand that was given has set:
   const CLI::App* command_ = nullptr;
   std::vector<std::string> files_;  ///< names of its results
   Compute compute_;
