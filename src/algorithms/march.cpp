@@ -30,6 +30,10 @@ constexpr int march_margin = 16;
 /// Distances along one line differ by less than this part because of rounding.
 constexpr double rounding = 1e-13;
 
+MarchResult unreached(std::size_t vertices) {
+  return {.distance = std::vector<double>(vertices, infinity), .source = std::vector<int>(vertices, -1)};
+}
+
 /// Marches of one source at a time. Equally near vertices are frozen together, and new distances are set only when all
 /// are known, so that the order of vertices and faces does not matter.
 template <class Faces>
@@ -60,25 +64,39 @@ class March {
     return std::move(result_);
   }
 
-  /// Marches from the starts, sorted by source, each source where it may be nearer than the result and the others.
-  void where(std::vector<MarchStart> starts, MarchResult& result) {
+  /// Marches from the starts, sorted by source, and returns the least distances with their sources.
+  MarchResult fromEach(std::vector<MarchStart> starts) {
     keepBehindLines(starts);
-    bound_ = result.distance;
-    longest_.resize(faces_.size(), 0);
-    edges_beside_.resize(faces_.size(), 0);
+    MarchResult result = unreached(faces_.size());
+    std::vector<double> bound = result.distance;
+    boundAlongEdges(faces_.faces, starts, bound);
+    for (double& entry : bound) entry *= 1 + rounding;
     const std::vector<std::span<const MarchStart>> sources = spreadSources(starts);
-    if (sources.size() > 1) {
-      boundAlongEdges(faces_.faces, starts, bound_);
-      for (double& bound : bound_) bound *= 1 + rounding;
-    }
     parts_ = static_cast<double>(sources.size());
+    marchWithin(bound);
     for (const auto& own : sources) {
       marchFrom(own);
-      takeWhereNearer(result);
+      for (const int a : touched_) {
+        takeIfNearer(a, result);
+        bound[a] = std::min(bound[a], distance_[a]);
+        distance_[a] = infinity;
+        frozen_[a] = 0;
+      }
+      touched_.clear();
       ++part_;
     }
-    result.visits += result_.visits;
-    result.lowered += result_.lowered;
+    addWorkTo(result);
+    return result;
+  }
+
+  /// Marches from starts of one more source, where it may be nearer than the sources in a result, and adds it there.
+  void where(std::vector<MarchStart> starts, MarchResult& result) {
+    keepBehindLines(starts);
+    marchWithin(result.distance);
+    marchFrom(starts);
+    for (std::size_t a = 0; a < distance_.size(); ++a)
+      if (frozen_[a] != 0) takeIfNearer(static_cast<int>(a), result);
+    addWorkTo(result);
   }
 
  private:
@@ -116,19 +134,23 @@ class March {
     }
   }
 
-  /// Takes the distances that are less than those of sources before, of equal ones that of the first, and forgets the
-  /// march.
-  void takeWhereNearer(MarchResult& result) {
-    for (const int a : touched_) {
-      if (std::pair(distance_[a], source_) < std::pair(result.distance[a], result.source[a])) {
-        result.distance[a] = distance_[a];
-        result.source[a] = source_;
-        bound_[a] = std::min(bound_[a], distance_[a]);
-      }
-      distance_[a] = infinity;
-      frozen_[a] = 0;
-    }
-    touched_.clear();
+  /// From now on a source ends where it is not the nearest.
+  void marchWithin(std::span<const double> bound) {
+    bound_ = bound;
+    longest_.resize(faces_.size(), 0);
+    edges_beside_.resize(faces_.size(), 0);
+  }
+
+  /// Takes a distance that is less than that of a source before, of equal ones that of the first.
+  void takeIfNearer(int a, MarchResult& result) const {
+    if (!(std::pair(distance_[a], source_) < std::pair(result.distance[a], result.source[a]))) return;
+    result.distance[a] = distance_[a];
+    result.source[a] = source_;
+  }
+
+  void addWorkTo(MarchResult& result) const {
+    result.visits += result_.visits;
+    result.lowered += result_.lowered;
   }
 
   /// Freezes all vertices of the least distance. False if none is left.
@@ -143,10 +165,8 @@ class March {
       heap_.pop();
       frozen_[a] = 1;
       if (is_late) late_.push_back(a);
-      if (!bound_.empty()) {
-        touched_.push_back(a);
-        if (distance <= bound_[a]) edges_beside_[a] = 0;
-      }
+      if (parts_ > 1) touched_.push_back(a);
+      if (!bound_.empty() && distance <= bound_[a]) edges_beside_[a] = 0;
       if (distance <= maximum_ || distance - maximum_ <= longestEdgeAt(a)) nearest_.push_back(a);
       if (++result_.visits % between_reports == 0) {
         const double share = static_cast<double>(result_.visits - visits_before_) / static_cast<double>(faces_.size());
@@ -181,8 +201,7 @@ class March {
     double longest = longest_.empty() ? 0 : longest_[a];
     if (longest > 0) return longest;
     faces_.around(a, [&](const MarchTriangle& t) { longest = std::max({longest, t.ab, t.ac}); });
-    if (!longest_.empty()) longest_[a] = longest;
-    return longest;
+    return longest_.empty() ? longest : longest_[a] = static_cast<float>(longest);
   }
 
   void offer(int vertex, double distance) {
@@ -199,7 +218,7 @@ class March {
   void alongEdge(int a, int b, double ab) {
     if (frozen_[b] != 0) return;
     if (!bound_.empty()) {
-      const int edges = edges_beside_[a] + 1;
+      const auto edges = static_cast<std::uint8_t>(edges_beside_[a] + 1);
       edges_beside_[b] = distance_[b] < infinity ? std::min(edges_beside_[b], edges) : edges;
     }
     offer(b, distance_[a] + ab);
@@ -285,11 +304,11 @@ class March {
   std::vector<Corner> fans_;  ///< the triangles around each of `nearest_`
   std::vector<Offer> offers_;
   // The members below serve marches from several sources. One source alone leaves them empty.
-  std::vector<double> bound_;    ///< no distance from the nearest source is greater
-  std::vector<double> longest_;  ///< edge at each vertex; 0: not known yet
-  /// Edges to the nearest vertex where the source may be the nearest.
-  std::vector<int> edges_beside_;
-  std::vector<int> touched_;     ///< vertices that this source has reached
+  std::span<const double> bound_;  ///< no distance from the nearest source is greater
+  std::vector<float> longest_;     ///< edge at each vertex; 0: not known yet
+  /// Edges to the nearest vertex where the source may be the nearest, at most `march_margin`.
+  std::vector<std::uint8_t> edges_beside_;
+  std::vector<int> touched_;     ///< vertices that one of several sources has reached
   double part_ = 0, parts_ = 1;  ///< of the progress: sources done, and all
   std::int64_t visits_before_ = 0;
 };
@@ -311,14 +330,11 @@ MarchResult march(const MarchFaces& faces, bool split, std::vector<MarchStart> s
                    [](const MarchStart& a, const MarchStart& b) { return a.source < b.source; });
   if (starts.empty() || starts.front().source == starts.back().source)
     return overFaces(faces, split, sources, maximum, workers, [&](auto march) { return march.overAll(starts); });
-  MarchResult result = unreached(faces, split);
-  overFaces(faces, split, sources, maximum, workers, [&](auto march) { march.where(starts, result); });
-  return result;
+  return overFaces(faces, split, sources, maximum, workers, [&](auto march) { return march.fromEach(starts); });
 }
 
 MarchResult unreached(const MarchFaces& faces, bool split) {
-  const std::size_t size = split ? SplitFaces{faces}.size() : WholeFaces{faces}.size();
-  return {.distance = std::vector<double>(size, infinity), .source = std::vector<int>(size, -1)};
+  return unreached(split ? SplitFaces{faces}.size() : WholeFaces{faces}.size());
 }
 
 void marchWhereNearer(const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts,
