@@ -76,6 +76,7 @@ int runDenoise(Settings& settings) {
   checkField(settings.look, geometry, {{"noise"}}, false);
   requireLas(geometry, settings.copies, settings.input.name(), {{"noise"}});
   if (interrupted()) throw tufted::Cancelled("cancelled");
+  bar.follow(Plan(denoiseStages(geometry)));
   const std::string doubt = doubtOf(geometry, settings.structure);
   if (settings.structure == Structure::automatic) settings.structure = structureFor(geometry);
   const auto scan = structureOf(geometry, settings.structure, settings.input.name());

@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <thread>
 
 #include "tufted/laplacian.h"
 #include "tufted/scan_structure.h"
@@ -16,6 +18,7 @@ namespace {
 constexpr double seconds_of_files = 1.5e-6;   ///< reading and writing take 1.1 to 2 us per point
 constexpr double bytes_of_program = 2e7;      ///< of a process that builds a few points
 constexpr double peak_per_stages = 0.9;       ///< peak memory of a build by the bytes of all stages, 0.75 to 1.05
+constexpr double least_efficiency = 0.8;      ///< of threads: two are 1.6 to 1.9 times as fast as one
 constexpr double growth_per_doubling = 0.05;  ///< caches help less: time per point of a million points is 1.2 times
                                               ///< that of 100,000
 
@@ -59,15 +62,21 @@ ExpectedCost expectedCost(const tufted::Geometry& geometry, std::int64_t finite,
     options.structure = &*image;
   }
   options.keep_cover = false;
+  const BuildWatch watch;
   const tufted::Laplacian built = tufted::pointCloudLaplacian(points, options);
-  ExpectedCost cost;
-  for (const tufted::StageCost& stage : built.report.stages) {
-    cost.seconds += stage.seconds;
-    cost.bytes += static_cast<double>(stage.bytes);
-  }
+  ExpectedCost cost = {.seconds = watch.seconds(options.threads)};
+  for (const tufted::StageCost& stage : built.report.stages) cost.bytes += static_cast<double>(stage.bytes);
   const double ratio = static_cast<double>(finite) / finite_in_sample;
   cost.seconds *= ratio * (1 + growth_per_doubling * std::log2(ratio));
   return withFiles(cost.seconds, cost.bytes * ratio * peak_per_stages, all);
+}
+
+double BuildWatch::seconds(int threads) const {
+  const std::chrono::duration<double> elapsed = Clock::now() - start_;
+  const double busy = static_cast<double>(std::clock() - processor_start_) / CLOCKS_PER_SEC;
+  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+  const double shared = threads > 0 ? std::min(processors, static_cast<unsigned>(threads)) : processors;
+  return std::min(elapsed.count(), busy / (shared == 1 ? 1 : least_efficiency * shared));
 }
 
 ExpectedCost withFiles(double seconds, double bytes, double points) {

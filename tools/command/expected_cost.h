@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <vector>
 
 #include "structure.h"
@@ -11,6 +13,19 @@
 struct ExpectedCost {
   double seconds = 0;
   double bytes = 0;  ///< peak memory
+};
+
+/// Time of a build, from the construction on, as if no other program ran: not more than its processor time by its
+/// threads.
+class BuildWatch {
+ public:
+  /// @param threads of the build, 0: one per processor
+  double seconds(int threads) const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  std::clock_t processor_start_ = std::clock();
 };
 
 /// The consecutive rows of an organized cloud, of about `most` pixels, that have the most finite points.

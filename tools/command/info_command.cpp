@@ -131,9 +131,7 @@ void addCost(const ExpectedCost& cost, Json& info) {
   info["expected_bytes"] = cost.bytes;
 }
 
-void addMesh(const tufted::Report& report, Json& info) {
-  double seconds = 0;
-  for (const tufted::StageCost& stage : report.stages) seconds += stage.seconds;
+void addMesh(const tufted::Report& report, double seconds, Json& info) {
   info["mean_edge"] = report.mean_edge;
   info["isolated"] = report.isolated;
   info["repeated_vertex_triangles"] = report.repeated_vertex_triangles;
@@ -185,8 +183,9 @@ std::string describePoints(const Settings& settings, const tufted::Geometry& geo
                                          .keep_cover = false,
                                          .weld = settings.input.weld,
                                          .progress = settings.cloud.progress};
+    const BuildWatch watch;
     const tufted::Laplacian laplacian = tufted::meshLaplacian(geometry.points, geometry.triangles, options);
-    addMesh(laplacian.report, info);
+    addMesh(laplacian.report, watch.seconds(settings.cloud.threads), info);
     return nothingActive(laplacian);
   }
   addCloud(points, settings.cloud.neighbors, structure, info);
@@ -211,6 +210,7 @@ int runInfo(Settings settings) {
   Json info = describeFile(settings, file);
   addContent(geometry, info);
   if (settings.input.chosen.of > 0) info["selection"] = settings.input.chosen.json();
+  bar.follow(Plan(describeStages() + buildStages(geometry)));
   const std::string nothing = describePoints(settings, geometry, info);
   info["odd"] = findOddities(info, settings.input.weld);
   bar.clear();

@@ -13,6 +13,14 @@ struct PlannedStage {
 };
 using PlannedStages = std::vector<PlannedStage>;
 
+/// The stages of a build.
+PlannedStages buildStages(const tufted::Geometry& geometry);
+/// The stages that move the points of a noisy cloud.
+PlannedStages denoiseStages(const tufted::Geometry& geometry);
+/// The stages that describe the points of a cloud.
+PlannedStages describeStages();
+/// First these stages, then more.
+PlannedStages operator+(PlannedStages first, const PlannedStages& more);
 /// The stages of commands that solve linear systems.
 PlannedStages solvingStages();
 /// The stages of commands that compute `count` eigenpairs.
@@ -23,6 +31,8 @@ class Plan {
  public:
   /// A plan of nothing.
   Plan() = default;
+  /// Reading, which is done, then the given stages, then writing.
+  explicit Plan(const PlannedStages& stages);
   /// Reading, which is done, a build, then the command's own stages, then writing.
   Plan(const tufted::Geometry& geometry, const PlannedStages& own);
 

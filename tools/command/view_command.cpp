@@ -181,6 +181,8 @@ int runView(Settings& settings) {
   choose(settings.fields, scene);
   lookFromSensor(geometry, look);
   addPlaceField(look, scene);
+  bar.follow(Plan(PlannedStages()));
+  progress("write", 0);
   for (tufted::WholeFile& file : prepareLook(scene, look)) file.giveName();
   bar.clear();
   for (const std::string& note : geometry.notes) warn(bar, note);
