@@ -47,6 +47,8 @@ Files in DIR, which replace older ones when all are complete:
                  --format pcd
   report.json    number of moved points and of outliers, noise, mean and largest displacement, seconds)";
 
+/// Bytes per point that this command takes at least: 150 of an exact sphere of a million points.
+constexpr double least_bytes = 150;
 /// The values of --structure here, without rings.
 const std::map<std::string, Structure> image_structures = {
     {"automatic", Structure::automatic}, {"none", Structure::none}, {"image", Structure::image}};
@@ -71,6 +73,7 @@ int runDenoise(Settings& settings) {
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);
   progress("read", 0);
+  refuseTooMany(settings.input, least_bytes);
   tufted::Geometry geometry = readInput(settings.input, progress);
   if (geometry.is_mesh) throw tufted::IoError(settings.input.name() + ": is a mesh; --as cloud takes its points alone");
   checkField(settings.look, geometry, {{"noise"}}, false);

@@ -146,7 +146,7 @@ double usableMemory() {
 std::string memoryText(const Input& input, std::int64_t points, double bytes) {
   char text[300];
   std::snprintf(text, sizeof text,
-                ": L and M of %lld points take %.3g GB of memory or more, and %.3g GB are available; thin the points "
+                ": %lld points take %.3g GB of memory or more, and %.3g GB are available; thin the points "
                 "(--thin), cut the file into parts (--crop), or build rows by tiles (`tufted laplacian --memory`)",
                 static_cast<long long>(points), bytes / 1e9, usableMemory() / 1e9);
   return input.name() + text;
@@ -156,13 +156,13 @@ std::optional<tufted::FileHead> readInputHead(const Input& input) {
   return input.isStandardInput() ? std::nullopt : tufted::readHead(input.file, input.as);
 }
 
-void refuseTooMany(const Input& input) {
+void refuseTooMany(const Input& input, double bytes) {
   if (input.chosen.isAsked()) return;
   const std::optional<tufted::FileHead> head = readInputHead(input);
   // Missing pixels take less. A file of less than a byte for each point is damaged or well compressed; reading tells.
   if (!head || head->faces > 0 || head->geometry.height > 1) return;
   if (std::filesystem::file_size(input.file) < static_cast<std::uintmax_t>(head->points)) return;
-  const double needed = static_cast<double>(head->points) * least_build_bytes;
+  const double needed = static_cast<double>(head->points) * bytes;
   if (needed > usableMemory()) throw tufted::FileTooLarge(memoryText(input, head->points, needed));
 }
 

@@ -60,17 +60,18 @@ void addWeld(CLI::App& command, Input& input);
 /// Bytes per point that a build of L and M takes at least: 300 of an exact surface, by docs/speed.md.
 constexpr double least_build_bytes = 300;
 
-/// Message of an input whose L and M do not fit into memory.
+/// Message of an input that takes more memory than there is.
 /// @param bytes what they take
 std::string memoryText(const Input& input, std::int64_t points, double bytes);
 
 /// Reads the header of the input, if that is possible without reading all of it, see tufted::readHead().
 std::optional<tufted::FileHead> readInputHead(const Input& input);
 
-/// Refuses a cloud whose header counts more points than can be built in the available memory, before it is read, unless
-/// points are chosen.
+/// Refuses a cloud whose header counts more points than fit into the available memory, before it is read, unless points
+/// are chosen.
+/// @param bytes that the command takes per point at least
 /// @throws FileTooLarge; IoError as tufted::readHead()
-void refuseTooMany(const Input& input);
+void refuseTooMany(const Input& input, double bytes = least_build_bytes);
 
 /// The points of the input that were chosen, for tiles: in passes if the file allows that, see tufted::sourceOf(). Sets
 /// the counts of input.chosen. @throws as tufted::sourceOf()
