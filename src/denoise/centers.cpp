@@ -16,6 +16,8 @@ constexpr std::uint64_t few = 32;
 /// A centre comes before this many of its nearest points. With 1, 2, 3 and 4 real shapes with noise of 0.3 spacings
 /// keep 0.157, 0.159, 0.161 and 0.164 of it.
 constexpr std::size_t behind = 2;
+/// Where normals are given, these are found among this many, as others may be on the other side of a thin part.
+constexpr int among_sides = 16;
 
 /// A hash of the coordinates of p that does not change if they are scaled by a power of two.
 std::uint64_t hashOf(const PointsView& points, int p) {
@@ -56,17 +58,20 @@ Centers fewCenters(const PointsView& points, const Workers& workers) {
   return centers;
 }
 
-Centers manyCenters(const PointsView& points, const NeighborSearch& search, const Buffer<std::uint8_t>& inside,
-                    const Workers& workers) {
+Centers manyCenters(const PointsView& points, const PointBuffer& normals, const NeighborSearch& search,
+                    const Buffer<std::uint8_t>& inside, const Workers& workers) {
   const auto n = static_cast<std::size_t>(points.rows());
   const Buffer<int> asked = numbersWhere("noise", static_cast<int>(n), workers, [&](int p) { return inside[p] != 0; });
+  const int searched = normals.rows() > 0 ? among_sides : static_cast<int>(behind);
   RawBuffer<double> order(n);
   RawBuffer<std::array<int, behind>> nearest(n);
   workers.forBlocks("noise", std::ssize(asked), star_block, [&](std::int64_t begin, std::int64_t end, int) {
-    forEachListed(points, search, std::span(asked).subspan(begin, end - begin), behind,
+    forEachListed(points, normals, search, std::span(asked).subspan(begin, end - begin), searched,
                   [&](int p, std::span<const Neighbor> neighbors) {
-                    order[p] = neighbors.front().squared_distance / neighbors.back().squared_distance;
-                    for (std::size_t i = 0; i < behind; ++i) nearest[p][i] = neighbors[i].index;
+                    const Neighbor& last = neighbors[std::min(behind, neighbors.size()) - 1];
+                    order[p] = neighbors.front().squared_distance / last.squared_distance;
+                    for (std::size_t i = 0; i < behind; ++i)
+                      nearest[p][i] = i < neighbors.size() ? neighbors[i].index : last.index;
                   });
   });
   const auto isBefore = [&](int p, int q) {

@@ -25,8 +25,9 @@ Centers fewCenters(const PointsView& points, const Workers& workers);
 /// About one point in three: those that come before their nearest two in the order of d1 / d2, the distances to these,
 /// which has no pattern and does not change if the cloud is turned. The centre of another point is found by going to
 /// the first of its nearest two, again and again.
+/// @param normals n x 3, or 0 x 3: a point comes after none on the other side of a thin part, see keepOwnSide()
 /// @param inside n, 1 for points that may be centres; the others get no centre
-Centers manyCenters(const PointsView& points, const NeighborSearch& search, const Buffer<std::uint8_t>& inside,
-                    const Workers& workers);
+Centers manyCenters(const PointsView& points, const PointBuffer& normals, const NeighborSearch& search,
+                    const Buffer<std::uint8_t>& inside, const Workers& workers);
 
 }  // namespace tufted

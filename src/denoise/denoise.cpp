@@ -57,7 +57,7 @@ void apply(const PointBuffer& moves, const Deviation& deviation, const RankedClo
 }
 
 void moveOntoSurface(const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {
-  const SurfaceMoves moves = surfaceMoves(cloud.points, NeighborSearch(cloud.points, workers), workers);
+  const SurfaceMoves moves = surfaceMoves(cloud.points, {}, NeighborSearch(cloud.points, workers), workers);
   apply(
       moves.move, [&](int p) { return std::sqrt(moves.variance[p]); }, cloud, denoised);
   denoised.report.no_surface = moves.no_surface;

@@ -74,7 +74,8 @@ class Mover {
 
 }  // namespace
 
-SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSearch& search, const Workers& workers) {
+SurfaceMoves surfaceMoves(const PointsView& points, const PointBuffer& normals, const NeighborSearch& search,
+                          const Workers& workers) {
   SurfaceMoves result;
   const auto n = static_cast<int>(points.rows());
   const auto count = static_cast<std::size_t>(n);
@@ -82,10 +83,10 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSearch& search
   result.variance.resize(count);
   result.outlier.assign(count, 0);
   if (n <= fit_sizes[1]) return result;
-  const Buffer<std::uint8_t> inside = whereNoiseMayBe(points, search, workers);
-  Centers centers = manyCenters(points, search, inside, workers);
+  const Buffer<std::uint8_t> inside = whereNoiseMayBe(points, normals, search, workers);
+  Centers centers = manyCenters(points, normals, search, inside, workers);
   if (centers.rank.size() < 2) return result;
-  const SurfaceFits fits = fitSurfaces(points, search, std::move(centers), workers);
+  const SurfaceFits fits = fitSurfaces(points, normals, search, std::move(centers), workers);
   const RawBuffer<LocalNoise> noise = findNoise(fits, workers);
   const Mover mover(points, fits, noise);
   workers.forBlocks("noise", n, star_block, [&](std::int64_t begin, std::int64_t end, int) {

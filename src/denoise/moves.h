@@ -22,6 +22,8 @@ struct SurfaceMoves {
 
 /// Finds the surface within the noise and the move of each point onto it (section 27 of docs/algorithm.md).
 /// @param points n x 3, those of `search`
-SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSearch& search, const Workers& workers);
+/// @param normals n x 3, of unit length or 0, or 0 x 3 if not known: their signs tell the sides of thin parts apart
+SurfaceMoves surfaceMoves(const PointsView& points, const PointBuffer& normals, const NeighborSearch& search,
+                          const Workers& workers);
 
 }  // namespace tufted

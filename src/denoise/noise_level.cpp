@@ -228,11 +228,12 @@ RawBuffer<LocalNoise> findNoise(const SurfaceFits& fits, const Workers& workers)
   return noise;
 }
 
-Buffer<std::uint8_t> whereNoiseMayBe(const PointsView& points, const NeighborSearch& search, const Workers& workers) {
+Buffer<std::uint8_t> whereNoiseMayBe(const PointsView& points, const PointBuffer& normals, const NeighborSearch& search,
+                                     const Workers& workers) {
   Buffer<std::uint8_t> may_be(static_cast<std::size_t>(points.rows()), 1);
   Centers few = fewCenters(points, workers);
   if (std::ssize(few.rank) < SurfaceFits::most_pooled) return may_be;
-  const SurfaceFits fits = fitSurfaces(points, search, std::move(few), workers);
+  const SurfaceFits fits = fitSurfaces(points, normals, search, std::move(few), workers);
   RawBuffer<std::uint8_t> is_sure(static_cast<std::size_t>(fits.count()));
   forEachCenter(fits, workers, [&](int c) {
     const Predictions predictions(fits, c);

@@ -25,7 +25,9 @@ double excessOf(const SurfaceFit& fit, int size, double variance);
 RawBuffer<LocalNoise> findNoise(const SurfaceFits& fits, const Workers& workers);
 
 /// A first look (section 27 of docs/algorithm.md, step 1): where there may be noise.
+/// @param normals n x 3, or 0 x 3 if not known
 /// @returns n, 1 where points may be noisy
-Buffer<std::uint8_t> whereNoiseMayBe(const PointsView& points, const NeighborSearch& search, const Workers& workers);
+Buffer<std::uint8_t> whereNoiseMayBe(const PointsView& points, const PointBuffer& normals, const NeighborSearch& search,
+                                     const Workers& workers);
 
 }  // namespace tufted

@@ -52,7 +52,7 @@ class SurfaceFitter {
     surface.spacing = static_cast<float>(std::sqrt(squared * std::numbers::pi / static_cast<double>(count)));
     const auto inside =
         std::ranges::count_if(neighbors, [&](const Neighbor& q) { return q.squared_distance <= squared / 4; });
-    surface.inner_share = static_cast<float>(inside) / static_cast<float>(count - 1);
+    surface.inner_share = static_cast<float>(inside) / static_cast<float>(std::max<std::size_t>(1, count - 1));
   }
 
  private:
@@ -106,8 +106,8 @@ SurfacePlace SurfaceFit::at(const Eigen::Vector3d& d) const {
   return {(d.dot(up) - height) / length, across / length};
 }
 
-SurfaceFits fitSurfaces(const PointsView& points, const NeighborSearch& search, Centers centers,
-                        const Workers& workers) {
+SurfaceFits fitSurfaces(const PointsView& points, const PointBuffer& normals, const NeighborSearch& search,
+                        Centers centers, const Workers& workers) {
   SurfaceFits fits;
   fits.centers = std::move(centers);
   const Buffer<int>& ranks = fits.centers.rank;
@@ -115,23 +115,27 @@ SurfaceFits fitSurfaces(const PointsView& points, const NeighborSearch& search, 
   workers.forBlocks("surface fits", fits.count(), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     SurfaceFitter fitter(points);
     LocalSurface* surface = &fits.surface[begin];
-    forEachListed(points, search, std::span(ranks).subspan(begin, end - begin), fit_sizes.back(),
+    forEachListed(points, normals, search, std::span(ranks).subspan(begin, end - begin), fit_sizes.back(),
                   [&](int p, std::span<const Neighbor> neighbors) { fitter.fit(p, neighbors, *surface++); });
   });
-  const PointBuffer places = placesOf(points, ranks);
+  const PointBuffer places = placesOf(points, ranks), sides = normals.rows() > 0 ? placesOf(normals, ranks) : normals;
   const NeighborSearch among_centers(places, workers);
   fits.pool_size = std::min(SurfaceFits::most_pooled, fits.count());
   fits.pool.resize(static_cast<std::size_t>(fits.count()) * fits.pool_size);
+  // Where normals are given, half of the nearest may be on the other side of a thin part.
+  const int searched = normals.rows() > 0 ? std::min(2 * fits.pool_size, fits.count()) - 1 : fits.pool_size - 1;
   workers.forBlocks("pools", fits.count(), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     BatchScratch scratch;
-    Buffer<Neighbor> found;
-    nearestOfEach(among_centers, places, static_cast<int>(begin), static_cast<int>(end - begin), fits.pool_size - 1,
-                  kernels(), scratch, found);
+    Buffer<Neighbor> found, own;
+    nearestOfEach(among_centers, places, static_cast<int>(begin), static_cast<int>(end - begin), searched, kernels(),
+                  scratch, found);
     int* pooled = &fits.pool[begin * fits.pool_size];
     auto next = found.begin();
-    for (auto c = static_cast<int>(begin); c < end; ++c) {
+    for (auto c = static_cast<int>(begin); c < end; ++c, next += searched) {
+      own.assign(next, next + searched);
+      keepOwnSide(places, sides, c, own);
       *pooled++ = c;
-      for (int i = 1; i < fits.pool_size; ++i) *pooled++ = next++->index;
+      for (int i = 1; i < fits.pool_size; ++i) *pooled++ = i <= std::ssize(own) ? own[i - 1].index : c;
     }
   });
   return fits;

@@ -66,9 +66,11 @@ struct SurfaceFits {
   }
 };
 
-/// Fits quadratics around every centre, without neighbours beyond a gap of heights, which are on other sheets.
+/// Fits quadratics around every centre, without neighbours beyond a gap of heights or with opposed normals, which are
+/// on other sheets.
 /// @param points n x 3, those of `search`
-SurfaceFits fitSurfaces(const PointsView& points, const NeighborSearch& search, Centers centers,
-                        const Workers& workers);
+/// @param normals n x 3, or 0 x 3 if not known
+SurfaceFits fitSurfaces(const PointsView& points, const PointBuffer& normals, const NeighborSearch& search,
+                        Centers centers, const Workers& workers);
 
 }  // namespace tufted

@@ -9,6 +9,7 @@
 #include "neighbors/batched_search.h"
 #include "neighbors/morton.h"
 #include "neighbors/neighbors.h"
+#include "neighbors/own_side.h"
 #include "neighbors/scan/ring_search.h"
 #include "tufted/options.h"
 #include "tufted/report.h"
@@ -38,6 +39,11 @@ struct NeighborSource {
   /// @returns the radius that was searched; of a list the distance to its last neighbour
   double nearest(const PointsView& points, int p, int count, Buffer<Neighbor>& found,
                  NeighborOrder order = NeighborOrder::ascending, SearchBefore* before = nullptr) const;
+
+  /// Removes the neighbours on the other side of a thin part, see tufted::keepOwnSide().
+  void keepOwnSide(const PointsView& points, int p, Buffer<Neighbor>& neighbors) const {
+    if (!isFixed()) tufted::keepOwnSide(points, normals, p, neighbors);
+  }
 
   /// The k neighbours of every point of [first, first + count), row after row, see tufted::nearestOfEach(). Requires
   /// `search`.

@@ -66,7 +66,7 @@ CloudSurface imageSurface(PixelGrid grid, RankedCloud& cloud, const CloudOptions
 /// @returns see CloudSurface::noise
 RawBuffer<double> moveOntoSurface(RankedCloud& cloud, NeighborSource& source, const Workers& workers, Report& report) {
   if (source.search == nullptr || source.isWholeCloud(cloud.size())) return {};
-  SurfaceMoves moves = surfaceMoves(cloud.points, *source.search, workers);
+  SurfaceMoves moves = surfaceMoves(cloud.points, source.normals, *source.search, workers);
   if (moves.count() == 0) return {};
   RawBuffer<double> noise = noiseOfMoved(
       moves.move, [&](int p) { return std::sqrt(moves.variance[p]); }, cloud.exponent, report);

@@ -61,6 +61,7 @@ bool NeighborhoodFinder::query(int p, int k, Neighborhood& neighborhood, OffsetB
     take(k, source_.nearest(points_, p, k, neighborhood.neighbors, NeighborOrder::ascending, &scratch.before),
          neighborhood);
   }
+  source_.keepOwnSide(points_, p, neighborhood.neighbors);
   offsets.take(points_, p, neighborhood.neighbors);
   return true;
 }
@@ -77,6 +78,7 @@ void NeighborhoodFinder::find(int first, int count, NeighborhoodScratch& scratch
     if (source_.search != nullptr) {
       const auto k = static_cast<std::size_t>(source_.k);
       start(std::span<const Neighbor>(scratch.found).subspan(i * k, k), neighborhood);
+      source_.keepOwnSide(points_, first + i, neighborhood.neighbors);
       continue;
     }
     neighborhood.grown = neighborhood.split = neighborhood.restored = neighborhood.isolated = false;

@@ -22,7 +22,7 @@ TEST(ListedSearch, FindsWhatSearchesForEachPointFind) {
       for (const int k : {3, 64, 256}) {
         std::size_t visited = 0;
         Buffer<Neighbor> expected;
-        forEachListed(ranked.points, search, which, k, [&](int p, std::span<const Neighbor> found) {
+        forEachListed(ranked.points, {}, search, which, k, [&](int p, std::span<const Neighbor> found) {
           ASSERT_EQ(p, which[visited++]);
           search.nearest(p, k, expected);
           const auto same = [](const Neighbor& a, const Neighbor& b) {
@@ -41,7 +41,7 @@ TEST(ListedSearch, OfMoreNeighborsThanThereAreFindsAll) {
   const RankedCloud cloud = support::ranked(shapes::sphere(70).points);
   const NeighborSearch search(cloud.points);
   const Buffer<int> which = {0, 1, 2, 69};
-  forEachListed(cloud.points, search, which, 128,
+  forEachListed(cloud.points, {}, search, which, 128,
                 [](int, std::span<const Neighbor> found) { EXPECT_EQ(found.size(), 69U); });
 }
 
