@@ -3,7 +3,6 @@
 #include "tufted/laplacian.h"
 
 namespace tufted::bench {
-namespace {
 
 Operators tuftedLaplacian(const Points& points, CloudOptions options, int k) {
   options.neighbors = k;
@@ -12,6 +11,8 @@ Operators tuftedLaplacian(const Points& points, CloudOptions options, int k) {
   Laplacian laplacian = pointCloudLaplacian(points, options);
   return {std::move(laplacian.L), std::move(laplacian.M)};
 }
+
+namespace {
 
 /// A build of ours with the paper's k.
 CloudRival tufted(const std::string& name, const CloudOptions& options) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "oracles/oracles.h"
+#include "tufted/options.h"
 #include "tufted/types.h"
 
 /// Other Laplacians of clouds and meshes, written plainly, to compare ours with. All have our sign and scale: L is
@@ -40,6 +41,9 @@ Operators meanCotanLaplacian(const Points& points, int k);
 /// Moving least squares of order 2 (Liang and Zhao 2013): the surface and the function are quadratics over the tangent
 /// plane, through the point itself. Not symmetric.
 Operators leastSquaresLaplacian(const Points& points, int k);
+
+/// Ours, by one thread.
+Operators tuftedLaplacian(const Points& points, CloudOptions options, int k);
 
 /// A Laplacian of clouds.
 struct CloudRival {

@@ -17,7 +17,7 @@ constexpr int compared = 40;  ///< positive eigenvalues
 
 /// A cloud and the eigenvalues of its surface, ascending with zeros.
 struct Case {
-  Points points;
+  Points points, normals;
   VectorXd eigenvalues;
 };
 /// Cases of one column of a table.
@@ -36,15 +36,17 @@ struct Result {
   }
 };
 
-Result measure(const CloudRival& rival, int k, const Column& cases) {
+/// @param build makes the Laplacian of a case
+template <class Build>
+Result measure(const Build& build, bool is_symmetric, const Column& cases) {
   Result result;
   for (const Case& c : cases) {
     const auto zeros = static_cast<int>((c.eigenvalues.array() == 0).count());
     const Stopwatch watch;
-    const Operators operators = rival.build(c.points, k);
+    const Operators operators = build(c);
     result.seconds += watch.seconds();
     try {
-      const Eigenvalues found = eigenvaluesOf(operators, rival.symmetric, compared + zeros);
+      const Eigenvalues found = eigenvaluesOf(operators, is_symmetric, compared + zeros);
       // Real parts stand for complex eigenvalues, whose number the tables give.
       result.errors.push_back(oracles::meanRelativeError(found.values, c.eigenvalues));
       result.complex += found.complex;
@@ -54,6 +56,21 @@ Result measure(const CloudRival& rival, int k, const Column& cases) {
     }
   }
   return result;
+}
+
+/// @param k number of neighbours; 0: the rival's own
+Result measure(const CloudRival& rival, int k, const Column& cases) {
+  return measure([&](const Case& c) { return rival.build(c.points, k > 0 ? k : rival.k); }, rival.symmetric, cases);
+}
+
+constexpr const char* ours_with_normals = "tufted, default, normals given";
+Result measureWithNormals(const Column& cases) {
+  const auto build = [](const Case& c) {
+    CloudOptions options;
+    options.normals = &c.normals;
+    return tuftedLaplacian(c.points, options, options.neighbors);
+  };
+  return measure(build, true, cases);
 }
 
 /// "3 complex, 2 negative", of all eigenvalues compared.
@@ -81,14 +98,16 @@ Column columnOf(const Settings& settings, const Make& make) {
   Column column;
   for (int s = 0; s < settings.seeds; ++s) {
     const shapes::Cloud cloud = make(settings.first_seed + static_cast<std::uint64_t>(s));
-    column.push_back({cloud.points, cloud.eigenvalues});
+    column.push_back({cloud.points, cloud.normals, cloud.eigenvalues});
   }
   return column;
 }
 
 /// One row per rival, one column of mean errors per number, for which make(number, seed) draws clouds.
+/// @param with_normals whether there is a row of ours with the normals of the clouds
 template <class Make>
-Json printConditions(const Settings& settings, const char* name, const std::vector<double>& numbers, const Make& make) {
+Json printConditions(const Settings& settings, const char* name, const std::vector<double>& numbers, const Make& make,
+                     bool with_normals = false) {
   std::vector<Column> columns;
   std::vector<std::string> names = {"Laplacian"};
   for (const double number : numbers) {
@@ -97,17 +116,20 @@ Json printConditions(const Settings& settings, const char* name, const std::vect
   }
   names.emplace_back("not real and positive");
   Table table(names);
-  for (const CloudRival& rival : rivalsOf(settings)) {
-    std::vector<Cell> row = {rival.name};
+  const auto addRow = [&](const std::string& laplacian, const auto& measureColumn) {
+    std::vector<Cell> row = {laplacian};
     Result all;
     for (const Column& column : columns) {
-      const Result result = measure(rival, settings.k > 0 ? settings.k : rival.k, column);
+      const Result result = measureColumn(column);
       row.push_back(errorCell(result, result.mean()));
       all.complex += result.complex, all.negative += result.negative, all.failed += result.failed;
     }
     row.emplace_back(notReal(all));
     table.row(row);
-  }
+  };
+  for (const CloudRival& rival : rivalsOf(settings))
+    addRow(rival.name, [&](const Column& column) { return measure(rival, settings.k, column); });
+  if (with_normals) addRow(ours_with_normals, measureWithNormals);
   return table.json();
 }
 
@@ -121,7 +143,8 @@ Json printSpectrum(const Settings& settings) {
     eigenvalues << 0, shape.eigenvalues;
     for (int s = 0; s < settings.seeds; ++s) {
       const std::uint64_t seed = settings.first_seed + static_cast<std::uint64_t>(s);
-      real.push_back({sampleOf(shape, n, settings.noise, seed).points, eigenvalues});
+      const shapes::Cloud cloud = sampleOf(shape, n, settings.noise, seed);
+      real.push_back({cloud.points, cloud.normals, eigenvalues});
     }
   }
   const auto noisy = [&](const shapes::Cloud& cloud, std::uint64_t seed) {
@@ -134,16 +157,17 @@ Json printSpectrum(const Settings& settings) {
       settings, [&](std::uint64_t seed) { return noisy(shapes::torus(n, shapes::Sampling::uniform, seed), seed); });
   Table table({"Laplacian", std::to_string(real.size()) + " real clouds, median", "worst", "sphere", "torus",
                "not real and positive", "build, s"});
-  for (const CloudRival& rival : rivalsOf(settings)) {
-    const int k = settings.k > 0 ? settings.k : rival.k;
-    const Result result = measure(rival, k, real), on_sphere = measure(rival, k, sphere),
-                 on_torus = measure(rival, k, torus);
+  const auto addRow = [&](const std::string& laplacian, const auto& measureColumn) {
+    const Result result = measureColumn(real), on_sphere = measureColumn(sphere), on_torus = measureColumn(torus);
     const auto& errors = result.errors;
-    table.row({rival.name, errors.empty() ? Cell("no spectrum") : percent(medianOf(errors)),
+    table.row({laplacian, errors.empty() ? Cell("no spectrum") : percent(medianOf(errors)),
                errors.empty() ? Cell("") : percent(*std::max_element(errors.begin(), errors.end())),
                errorCell(on_sphere, on_sphere.mean()), errorCell(on_torus, on_torus.mean()), notReal(result),
                Cell("%.2f", result.seconds / static_cast<double>(std::max<std::size_t>(real.size(), 1)))});
-  }
+  };
+  for (const CloudRival& rival : rivalsOf(settings))
+    addRow(rival.name, [&](const Column& column) { return measure(rival, settings.k, column); });
+  addRow(ours_with_normals, measureWithNormals);
   return table.json();
 }
 
@@ -171,9 +195,14 @@ Json printLines(const Settings& settings) {
 
 Json printSheets(const Settings& settings) {
   const int n = settings.pointsOr(4000);
-  return printConditions(settings, "%g spacings apart", {0.5, 1, 2, 4, 8}, [n](double spacings, std::uint64_t seed) {
-    return shapes::twoSheets(n, spacings * std::sqrt(2.0 / n), seed);
-  });
+  return printConditions(
+      settings, "%g spacings apart", {0.5, 1, 2, 4, 8},
+      [n](double spacings, std::uint64_t seed) {
+        shapes::Cloud sheets = shapes::twoSheets(n, spacings * std::sqrt(2.0 / n), seed);
+        for (int i = 0; i < n; ++i) sheets.normals(i, 2) = sheets.labels[i] == 0 ? -1 : 1;  // of a thin plate
+        return sheets;
+      },
+      true);
 }
 
 }  // namespace tufted::bench
