@@ -32,10 +32,10 @@ mkdir "$root/tufted"
 echo 'Dpkg::Use-Pty "false";' >"$root/etc/apt/apt.conf.d/no-terminal"
 cp -r "$out"/*.deb "$out"/*.whl include tests docs README.md datasets "$root/tufted"
 
-# clean COMMAND: runs it in the new Debian.
+# clean COMMAND: runs it in the new Debian, which has no ccache.
 clean() {
   echo "== $1"
-  chroot "$root" bash -eo pipefail -c "cd /tufted; export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8; $1"
+  env -u CMAKE_C_COMPILER_LAUNCHER -u CMAKE_CXX_COMPILER_LAUNCHER chroot "$root" bash -eo pipefail -c "cd /tufted; export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8; $1"
 }
 clean 'apt-get update -qq
        apt-get install -y -qq --no-install-recommends ./libtufted0*.deb ./tufted_*.deb ./python3-tufted_*.deb >/dev/null
