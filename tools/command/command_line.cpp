@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstddef>
 #include <set>
 
+#include "options.h"
 #include "suggestion.h"
 
 namespace {
@@ -29,8 +29,7 @@ bool isOption(const std::string& word) {
 
 bool isNumber(const std::string& word) {
   double number = 0;
-  const char* const end = word.data() + word.size();
-  return std::from_chars(word.data(), end, number).ptr == end && !word.empty();
+  return parseNumber(word, number);
 }
 
 /// The option's name in `--name=value` or `-nvalue`.

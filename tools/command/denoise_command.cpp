@@ -144,8 +144,7 @@ void addDenoise(CLI::App& app, Run& run) {
   addChoice(
       command, "--structure", settings->structure, image_structures,
       "Treat the cloud as a depth image, or not (automatic: if a pinhole camera saw it from the VIEWPOINT of FILE)");
-  addNumber(command, "--threads", settings->threads, 1, 1 << 16, "Maximum number of threads (one per processor)")
-      ->type_name("N");
+  addNumber(command, "--threads N", settings->threads, 1, 1 << 16, "Maximum number of threads (one per processor)");
   addLookOptions(command, settings->look);
   addConsole(command, settings->console);
   command.callback([&run, &command, settings] {

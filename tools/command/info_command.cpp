@@ -236,11 +236,10 @@ void addInfo(CLI::App& app, Run& run) {
   addInput(command, settings->input);
   addWeld(command, settings->input);
   command.add_flag("--full", settings->full, "Look at all points, not at a sample of 100,000 of a larger file");
-  settings->neighbors = addNumber(command, "--neighbors", settings->cloud.neighbors, 3, std::numeric_limits<int>::max(),
-                                  "Number of neighbours per point, clouds only (30)")
-                            ->type_name("K");
-  addNumber(command, "--threads", settings->cloud.threads, 1, 1 << 16, "Maximum number of threads (one per processor)")
-      ->type_name("N");
+  settings->neighbors = addNumber(command, "--neighbors K", settings->cloud.neighbors, 3,
+                                  std::numeric_limits<int>::max(), "Number of neighbours per point, clouds only (30)");
+  addNumber(command, "--threads N", settings->cloud.threads, 1, 1 << 16,
+            "Maximum number of threads (one per processor)");
   addConsole(command, settings->console);
   command.callback([&run, settings] { run = [=] { return runInfo(*settings); }; });
 }

@@ -169,16 +169,12 @@ tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
 }  // namespace
 
 void addPictureOptions(CLI::App& command, Look& look) {
-  command.add_option("--png", look.png, "Write a picture")->check(notEmpty)->type_name("FILE.png");
-  command
-      .add_option("--color", look.color,
-                  "Field to show; x, y, z or normal for places and directions; none for the shape alone (the first "
-                  "field; without one the height)")
-      ->check(notEmpty)
-      ->type_name("FIELD");
-  addNumber(command, "--column", look.column, 0, std::numeric_limits<int>::max(),
-            "Column of the field that is shown, counted from 0 (the first that is not constant)")
-      ->type_name("K");
+  addText(command, "--png FILE.png", look.png, "Write a picture");
+  addText(command, "--color FIELD", look.color,
+          "Field to show; x, y, z or normal for places and directions; none for the shape alone (the first "
+          "field; without one the height)");
+  addNumber(command, "--column K", look.column, 0, std::numeric_limits<int>::max(),
+            "Column of the field that is shown, counted from 0 (the first that is not constant)");
   const auto set_map = [&look](const std::string& name) { look.picture.color_map = name; };
   command
       .add_option_function<std::string>("--colormap", set_map,
@@ -203,7 +199,7 @@ void addPictureOptions(CLI::App& command, Look& look) {
 }
 
 void addLookOptions(CLI::App& command, Look& look) {
-  command.add_option("--view", look.page, "Write a page for a browser")->check(notEmpty)->type_name("FILE.html");
+  addText(command, "--view FILE.html", look.page, "Write a page for a browser");
   addPictureOptions(command, look);
 }
 

@@ -71,6 +71,23 @@ inline std::string notEmpty(const std::string& path) {
   return path.empty() ? "must not be empty" : "";
 }
 
+/// An option's name, and the type of its value that the help shows, from "--name TYPE"; without a type CLI11's own.
+struct TypedName {
+  explicit TypedName(const std::string& text) : name(text.substr(0, text.find(' '))) {
+    if (name.size() < text.size()) type = text.substr(name.size() + 1);
+  }
+  CLI::Option* on(CLI::Option* option) const { return type.empty() ? option : option->type_name(type); }
+  std::string name, type;
+};
+
+/// Adds an option that takes a text, such as a path, which must not be empty.
+/// @param name with the type of the value, such as "--handles TEXT"
+template <class Target>
+CLI::Option* addText(CLI::App& app, const std::string& name, Target& target, const std::string& help) {
+  const TypedName typed(name);
+  return typed.on(app.add_option(typed.name, target, help)->check(notEmpty));
+}
+
 /// Splits a list at its commas.
 inline std::vector<std::string> wordsOf(const std::string& list) {
   std::vector<std::string> words;
@@ -121,6 +138,15 @@ auto forOption(const std::string& option, const Work& work) {
   }
 }
 
+/// Parses a whole word as a number.
+/// @return whether it is one
+template <class T>
+bool parseNumber(const std::string& word, T& number) {
+  const char* const word_end = word.data() + word.size();
+  const auto [end, error] = std::from_chars(word.data(), word_end, number);
+  return error == std::errc() && end == word_end;
+}
+
 /// The text of a range for messages; the least and the greatest double stand for 0 and infinity.
 template <class T>
 std::string rangeText(T least, T most) {
@@ -134,20 +160,19 @@ std::string rangeText(T least, T most) {
 }
 
 /// Adds an option that takes a number in [least, most].
+/// @param name with the type of the value, such as "--count K"
 template <class T, class Target>
 CLI::Option* addNumber(CLI::App& app, const std::string& name, Target& target, T least, T most,
                        const std::string& help) {
   const auto parse = [least, most](const std::string& text) -> std::optional<T> {
     T value = {};
-    const char* const text_end = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), text_end, value);
-    const bool valid = error == std::errc() && end == text_end && value >= least && value <= most;
-    return valid ? std::optional<T>(value) : std::nullopt;
+    return parseNumber(text, value) && value >= least && value <= most ? std::optional(value) : std::nullopt;
   };
   const auto check = [parse, least, most](const std::string& text) {
     if (parse(text)) return std::string();
     return text + " is not " + (std::is_integral_v<T> ? "an integer" : "a number") + " in " + rangeText(least, most);
   };
   const auto set = [&target, parse](const std::string& text) { target = parse(text).value(); };
-  return app.add_option_function<std::string>(name, set, help)->check(check);
+  const TypedName typed(name);
+  return typed.on(app.add_option_function<std::string>(typed.name, set, help)->check(check));
 }

@@ -8,10 +8,7 @@
 #include "tufted/io/write.h"
 
 void addOut(CLI::App& command, std::filesystem::path& out) {
-  command.add_option("-o,--out", out, "Folder for the results, created if missing")
-      ->required()
-      ->check(notEmpty)
-      ->type_name("DIR");
+  addText(command, "-o,--out DIR", out, "Folder for the results, created if missing")->required();
 }
 
 void addFormats(CLI::App& command, std::vector<tufted::Format>& target,

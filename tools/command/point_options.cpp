@@ -14,12 +14,6 @@
 
 namespace {
 
-bool parseNumber(const std::string& word, double& number) {
-  const char* const end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, number);
-  return error == std::errc() && stop == end;
-}
-
 /// The distance from a point to its farthest neighbour.
 double spacingAt(int point, const tufted::Laplacian& laplacian, const tufted::Points& points) {
   double farthest = 0;
@@ -193,7 +187,5 @@ void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& 
   command.add_option("--near", points.positions, what + ": the point nearest to this position; may be repeated")
       ->allow_extra_args(false)
       ->type_name("X,Y,Z");
-  command.add_option("--sources", points.file, what + ": text file of lines INDEX or X Y Z")
-      ->check(notEmpty)
-      ->type_name("TEXT");
+  addText(command, "--sources TEXT", points.file, what + ": text file of lines INDEX or X Y Z");
 }

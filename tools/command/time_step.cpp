@@ -8,7 +8,7 @@
 #include "tufted/errors.h"
 
 CLI::Option* addTimeStep(CLI::App& command, std::optional<double>& time_step, const std::string& text) {
-  return addNumber(command, "--time-step", time_step, 1e-4, 1e12, text)->type_name("T");
+  return addNumber(command, "--time-step T", time_step, 1e-4, 1e12, text);
 }
 
 void checkTimeStep(const std::optional<double>& time_step, double time, const Operator& source) {

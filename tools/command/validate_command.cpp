@@ -286,14 +286,12 @@ void addValidate(CLI::App& app, Run& run) {
       ->check(notEmpty)
       ->transform(CLI::Validator(withoutProtection, ""))
       ->type_name("DIR");
-  addNumber(command, "--jobs", settings->jobs, 1, 1024, "Maximum number of files checked at once (one per processor)")
-      ->type_name("N");
-  addNumber(command, "--time", settings->seconds, 0.0, most_seconds,
-            "Time limit per file in seconds; 0: no limit (600)")
-      ->type_name("S");
-  addNumber(command, "--memory", settings->memory, 1, std::numeric_limits<int>::max(),
-            "Memory limit per file in MB; each file is then built by one thread (no limit)")
-      ->type_name("MB");
+  addNumber(command, "--jobs N", settings->jobs, 1, 1024,
+            "Maximum number of files checked at once (one per processor)");
+  addNumber(command, "--time S", settings->seconds, 0.0, most_seconds,
+            "Time limit per file in seconds; 0: no limit (600)");
+  addNumber(command, "--memory MB", settings->memory, 1, std::numeric_limits<int>::max(),
+            "Memory limit per file in MB; each file is then built by one thread (no limit)");
   addChoice(command, "--as", settings->as, kinds,
             "Read each PATH as a point cloud or as a mesh (a mesh if the file has faces)")
       ->needs(paths);

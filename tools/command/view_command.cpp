@@ -229,11 +229,8 @@ void addView(CLI::App& app, Run& run) {
   command.add_option("WHAT", settings->what, "Folder of results, or a file of a point cloud or mesh")
       ->required()
       ->check(notEmpty);
-  command
-      .add_option("--out,-o,--view", settings->look.page,
-                  "Name of the page (without a picture view.html in the folder, or the name of the file with .html)")
-      ->check(notEmpty)
-      ->type_name("FILE.html");
+  addText(command, "--out,-o,--view FILE.html", settings->look.page,
+          "Name of the page (without a picture view.html in the folder, or the name of the file with .html)");
   command
       .add_option("--field", settings->fields, "Show only this field; may be repeated, in the order of the page (all)")
       ->allow_extra_args(false)
