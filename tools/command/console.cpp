@@ -1,9 +1,12 @@
 #include "console.h"
 
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "tufted/errors.h"
 
@@ -34,4 +37,17 @@ void sayResults(const Console& console, const Summary& summary, const std::files
   }
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
     throw tufted::IoError("standard output: cannot be written");
+}
+
+double peakMemory() {
+  constexpr double kilobytes = 1024;  // per MB
+  // Not by getrusage(), whose peak includes that of the process that called exec().
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double peak = 0;
+    if (word == "VmHWM:" && status >> peak) return peak / kilobytes;
+  }
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / kilobytes;
 }

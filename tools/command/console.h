@@ -23,3 +23,6 @@ void addVerboseConsole(CLI::App& command, Console& console);
 /// @throws IoError when standard output cannot be written
 void sayResults(const Console& console, const Summary& summary, const std::filesystem::path& out,
                 const std::vector<std::string>& warnings);
+
+/// Peak memory of this process in MB.
+double peakMemory();

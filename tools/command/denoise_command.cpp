@@ -10,7 +10,6 @@
 #include "look.h"
 #include "options.h"
 #include "output.h"
-#include "peak_memory.h"
 #include "progress_bar.h"
 #include "scene_fields.h"
 #include "structure.h"

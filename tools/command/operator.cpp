@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "bytes.h"
+#include "console.h"
 #include "interrupt.h"
 #include "options.h"
 #include "output.h"
-#include "peak_memory.h"
 #include "progress_bar.h"
 #include "scene_fields.h"
 #include "tufted/errors.h"
@@ -28,16 +28,9 @@ void addSolvingOptions(CLI::App& command, Solving& solving) {
   addChoice(
       command, "--solver", solving.method, methods,
       "How linear systems are solved; SolverMethod in messages (automatic: cholesky if its factor fits into memory)");
-  const auto set = [&solving](const std::string& text) { solving.memory_limit = parseBytes(text).value(); };
-  const auto check = [](const std::string& text) {
-    return parseBytes(text) ? std::string() : text + " is no size such as 500MB or 2GiB";
-  };
-  command
-      .add_option_function<std::string>(
-          "--memory-limit", set,
-          "Memory for Cholesky factors, such as 500MB or 2GiB; memory_limit in messages (half of the available memory)")
-      ->check(check)
-      ->type_name("SIZE");
+  addBytes(
+      command, "--memory-limit", [&solving](std::size_t bytes, const std::string&) { solving.memory_limit = bytes; },
+      "Memory for Cholesky factors, such as 500MB or 2GiB; memory_limit in messages (half of the available memory)");
 }
 
 void readFolder(const OperatorSettings& settings, Operator& source) {

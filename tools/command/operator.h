@@ -17,7 +17,7 @@
 #include "input.h"
 #include "look.h"
 #include "paths.h"
-#include "plan.h"
+#include "progress_bar.h"
 #include "summary.h"
 #include "tufted/io/results.h"
 #include "tufted/laplacian.h"

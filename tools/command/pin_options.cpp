@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "options.h"
-#include "taking_part.h"
+#include "point_options.h"
 #include "tufted/errors.h"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <system_error>
 
-#include "field_values.h"
 #include "options.h"
+#include "scene_fields.h"
 #include "tufted/errors.h"
 
 namespace {

@@ -22,7 +22,5 @@
 #include "point_options.h"
 #include "reports.h"
 #include "signal_options.h"
-#include "taking_part.h"
-#include "time_step.h"
 #include "tufted/errors.h"
 #include "warnings.h"

@@ -10,10 +10,10 @@
 
 #include "bytes.h"
 #include "command.h"
+#include "console.h"
 #include "interrupt.h"
 #include "options.h"
 #include "output.h"
-#include "peak_memory.h"
 #include "progress_bar.h"
 #include "summary.h"
 #include "tufted/errors.h"
@@ -47,19 +47,13 @@ tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build) {
 }  // namespace
 
 void addTiled(CLI::App& command, Tiled& tiled) {
+  const auto set = [&tiled](std::size_t bytes, const std::string& text) {
+    tiled.memory = static_cast<double>(bytes);
+    tiled.memory_text = text;
+  };
   CLI::Option* const memory =
-      command
-          .add_option_function<std::string>(
-              "--memory",
-              [&tiled](const std::string& size) {
-                tiled.memory = static_cast<double>(parseBytes(size).value());
-                tiled.memory_text = size;
-              },
-              "Build the cloud by tiles that fit in this much memory, such as 4G; writes other files, see below")
-          ->check([](const std::string& size) {
-            return parseBytes(size) ? std::string() : size + " is not a size such as 4G or 500M";
-          })
-          ->type_name("SIZE");
+      addBytes(command, "--memory", set,
+               "Build the cloud by tiles that fit in this much memory, such as 4G; writes other files, see below");
   command.add_flag("--keep-noise", tiled.keeps_noise, "Do not move noisy points onto the surface; only with --memory")
       ->needs(memory);
 }

@@ -78,6 +78,7 @@ constexpr double most_seconds = 1e9;     // greatest value of --time
 constexpr std::size_t most_text = 4096;  // most bytes shown of the output of a process without a result
 
 struct Settings {
+  const CLI::App* command = nullptr;
   std::vector<std::filesystem::path> paths, operators;
   tufted::ReadAs as = tufted::ReadAs::automatic;
   ChosenPoints chosen;
@@ -88,19 +89,12 @@ struct Settings {
   Console console;
 };
 
-/// The arguments with which this program judges one file.
+/// The arguments with which this program judges one file: options of files as they were given.
 std::vector<std::string> wordsForOne(const std::filesystem::path& path, bool is_operator, const Settings& settings) {
-  const double seconds = settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // printed with six decimals
-  std::vector<std::string> words = {
-      name, "--one", "--jobs", std::to_string(settings.jobs), "--time", std::to_string(seconds)};
-  if (settings.memory) words.insert(words.end(), {"--memory", std::to_string(*settings.memory)});
-  for (const auto& [word, as] : kinds)
-    if (as == settings.as) words.insert(words.end(), {"--as", word});
-  const ChosenPoints& chosen = settings.chosen;
-  for (const std::string& condition : chosen.selection.where) words.insert(words.end(), {"--where", condition});
-  if (!chosen.crop.empty()) words.insert(words.end(), {"--crop", chosen.crop});
-  if (!chosen.polygon.empty()) words.insert(words.end(), {"--polygon", chosen.polygon.string()});
-  if (chosen.selection.thin > 0) words.insert(words.end(), {"--thin", Json(chosen.selection.thin).dump()});
+  std::vector<std::string> words = {name, "--one", "--jobs", std::to_string(settings.jobs)};
+  for (const char* const option : {"--time", "--memory", "--as", "--where", "--crop", "--polygon", "--thin"})
+    for (const std::string& value : settings.command->get_option(option)->results())
+      words.insert(words.end(), {option, value});
   if (is_operator) words.emplace_back("--operator");
   words.push_back(std::filesystem::absolute(path).string());  // absolute, so that it does not look like an option
   return words;
@@ -298,7 +292,8 @@ void addValidate(CLI::App& app, Run& run) {
   addSelection(command, settings->chosen);
   command.add_flag("--one", settings->is_one)->group("");  // hidden in the help
   addConsole(command, settings->console);
-  command.callback([&run, settings] {
+  command.callback([&run, &command, settings] {
+    settings->command = &command;
     if (settings->paths.empty() && settings->operators.empty()) throw CLI::RequiredError("PATH or --operator");
     if (settings->chosen.isAsked() && !settings->is_one && !settings->operators.empty())
       throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to files, and --operator names a folder");
