@@ -96,8 +96,7 @@ int runDenoise(Settings& settings) {
       {.name = "positions", .values = denoised.positions, .per_point = false},
       {.name = "noise", .values = denoised.noise}};
   tufted::ResultOptions options = {.copies = settings.copies, .progress = progress};
-  // Paths need not be UTF-8.
-  options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  options.report = textOf(json);
   const tufted::Laplacian none;
   const std::string title = "denoise: " + std::filesystem::path(settings.input.name()).filename().string();
   writeAndShow(
@@ -119,11 +118,9 @@ int runDenoise(Settings& settings) {
                 scan ? ", by the pixels of a depth image" : "");
   }
   if (!doubt.empty()) summary.add("rays", "%s", doubt.c_str());
-  summary.add("took", "%.3g s, peak memory %.0f MB", done.seconds, peakMemory());
-  summary.add("written to", "%s", settings.out.c_str());
+  addEnd(done.seconds, settings.out, summary);
   addLook(settings.look, summary);
-  std::vector<std::string> warnings = warningsOf(settings.input.name(), geometry);
-  for (const std::string& line : tufted::warnings(done)) warnings.push_back(settings.input.name() + ": " + line);
+  const std::vector<std::string> warnings = warningsOf(settings.input.name(), geometry, tufted::warnings(done));
   for (const std::string& line : warnings) warn(bar, line);
   sayResults(settings.console, summary, settings.out, warnings);
   return exit_done;

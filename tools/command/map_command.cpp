@@ -86,8 +86,7 @@ Files in DIR, which replace older ones when all are complete:
     Results results;
     const std::string name = from.name();
     const tufted::Laplacian other = buildLaplacian(shape, from, source_build, false, source.progress);
-    results.warnings = warningsOf(name, shape);
-    for (const std::string& line : warningsOf(name, other.report)) results.warnings.push_back(line);
+    results.warnings = warningsOf(name, shape, tufted::warnings(other.report));
     constexpr int least_pairs = 100;  // wave kernel signatures of fewer tell less, see FunctionalMapOptions
     const int pairs = std::max(count, least_pairs);
     const tufted::Spectrum first = pairsOf(name, other, pairs, source);

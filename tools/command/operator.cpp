@@ -74,8 +74,7 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
                      {"denoised", built.denoised},
                      {"noise", built.noise}};
   tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress, .lines = results.lines};
-  // Paths need not be UTF-8.
-  options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  options.report = textOf(json);
   if (source.geometry.points.rows() == 0 && source.points() > 0) options.copies.clear();
   if (results.write)
     results.write(settings.out, options);
@@ -183,8 +182,8 @@ int Subcommand::run() {
         buildLaplacian(source.geometry, input, build, needsCover(source.geometry.is_mesh), source.progress);
   source.moved = std::move(build.moved);
   checkpoint();
-  std::vector<std::string> warnings = warningsOf(source.name, source.geometry);
-  for (const std::string& line : warningsOf(source.name, source.laplacian.report)) warnings.push_back(line);
+  std::vector<std::string> warnings =
+      warningsOf(source.name, source.geometry, tufted::warnings(source.laplacian.report));
   Results chosen;
   chooseComponents(components, source, chosen);
   Results results = blameData(source, [&] { return compute(source); });
@@ -201,8 +200,7 @@ int Subcommand::run() {
   summary.append(results.summary);
   addBuild(source.laplacian.report, build, summary);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  summary.add("took", "%.3g s, peak memory %.0f MB", seconds.count(), peakMemory());
-  summary.add("written to", "%s", out.c_str());
+  addEnd(seconds.count(), out, summary);
   addLook(look, summary);
   sayResults(console, summary, out, warnings);
   return exit_done;

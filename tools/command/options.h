@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -35,6 +36,14 @@ inline std::string countText(std::int64_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
+/// The names of fields.
+template <class Fields>
+std::vector<std::string> namesOf(const Fields& fields) {
+  std::vector<std::string> names;
+  for (const auto& field : fields) names.push_back(field.name);
+  return names;
+}
+
 template <class T>
 std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
   std::vector<std::string> names;
@@ -42,19 +51,11 @@ std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
   for (const auto& [name, value] : values) names.push_back(name);
   return names;
 }
-/// The names in `values`, separated by "|".
-template <class T>
-std::string choiceOf(const std::map<std::string, T>& values) {
-  std::string all;
-  for (const auto& [name, value] : values) all += (all.empty() ? "" : "|") + name;
-  return all;
-}
 
-/// The message for a word that is not one of the names in `values`; an empty string if it is one.
-template <class T>
-std::string refuseName(const std::string& word, const std::map<std::string, T>& values) {
-  if (values.count(word) > 0) return "";
-  return word + " is none of " + choiceOf(values) + didYouMean(word, namesIn(values));
+/// The message for a word that is none of the known ones; an empty string if it is one.
+inline std::string refuseName(const std::string& word, const std::vector<std::string>& known) {
+  const bool is_known = std::find(known.begin(), known.end(), word) != known.end();
+  return is_known ? "" : noneOf(word, known, "|");
 }
 
 /// Adds an option that takes one of the names in `values`. The target may be std::optional.
@@ -62,8 +63,9 @@ template <class Target, class T>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, Target& target, const std::map<std::string, T>& values,
                        const std::string& help) {
   const auto set = [&target, &values](const std::string& key) { target = values.at(key); };
-  const auto check = [&values](const std::string& key) { return refuseName(key, values); };
-  return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(choiceOf(values));
+  const std::vector<std::string> known = namesIn(values);
+  const auto check = [known](const std::string& key) { return refuseName(key, known); };
+  return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(joined(known, "|"));
 }
 
 /// Check of a path: the message if it is empty, otherwise an empty string.

@@ -95,7 +95,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
     counts.not_finite = report.not_finite;
     counts.coincident = report.coincident;
     counts.isolated = report.isolated;
-    for (const std::string& line : warningsOf(input.name(), counts)) notes.push_back(line);
+    for (const std::string& line : tufted::warnings(counts)) notes.push_back(input.name() + ": " + line);
   }
   for (const std::string& note : notes) warn(bar, note);
   Summary summary;
@@ -107,8 +107,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
               report.builds - report.tiles);
   summary.add("area", "%.10g, the sum of M", report.area);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  summary.add("took", "%.3g s, peak memory %.0f MB", seconds.count(), peakMemory());
-  summary.add("written to", "%s", out.c_str());
+  addEnd(seconds.count(), out, summary);
   sayResults(console, summary, out, notes);
   return exit_done;
 }

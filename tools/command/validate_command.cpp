@@ -136,17 +136,12 @@ Json describeFile(const std::string& file, int status, double seconds, const std
   return row;
 }
 
-void print(const std::string& line) {
-  if (std::puts(line.c_str()) < 0 || std::fflush(stdout) != 0)
-    throw tufted::IoError("standard output: cannot write the results");
-}
-
 /// Collects the rows, and prints them in the order of the files, each as soon as all before it are known.
 class Results {
  public:
   Results(std::size_t files, const Console& console)
       : rows_(files), as_lines_(!console.json && !console.quiet), as_json_(console.json), bar_(console.quiet) {
-    if (as_lines_) print(tableHeader());
+    if (as_lines_) print(tableHeader() + "\n");
   }
 
   void add(std::size_t number, Json row) {
@@ -156,7 +151,7 @@ class Results {
     rows_[number] = std::move(row);
     for (; as_lines_ && printed_ < rows_.size() && !rows_[printed_].is_null(); ++printed_) {
       bar_.clear();
-      print(tableLine(rows_[printed_]));
+      print(tableLine(rows_[printed_]) + "\n");
     }
   }
 
@@ -174,11 +169,11 @@ class Results {
     text << std::fixed << countText(static_cast<std::int64_t>(rows_.size()), "file") << ": " << ok << " OK, ";
     if (empty > 0) text << empty << " EMPTY, ";
     text << refused << " REFUSED, " << failed << " FAILED, " << seconds << " s";
-    if (as_lines_) print(text.str());
+    if (as_lines_) print(text.str() + "\n");
     const Json summary = {{"files", rows_.size()}, {"ok", ok},         {"empty", empty},
                           {"refused", refused},    {"failed", failed}, {"seconds", seconds}};
     const Json document = {{"tufted", TUFTED_VERSION}, {"files", rows_}, {"summary", summary}};
-    if (as_json_) print(document.dump(2, ' ', false, Json::error_handler_t::replace));
+    if (as_json_) print(textOf(document));
     const std::string of = " of " + std::to_string(rows_.size()) + " ";
     const std::string none = empty > 0 ? std::to_string(empty) + of + "EMPTY: no point is active" : "";
     if (failed > 0)
