@@ -81,8 +81,8 @@ class Drawing {
       // A line of one place has a second point, without which round caps are not drawn.
       for (Eigen::Index k = 0; k < std::max<Eigen::Index>(2, line->points.rows()); ++k) {
         const Eigen::Vector2d at = halved(line->points.row(std::min(k, line->points.rows() - 1))) - box_.min();
-        to.write((k == 0 ? "M" : "L") + text(margin + scale_ * at.x()));
-        to.write(" " + text(margin + size.y() - scale_ * at.y()));
+        to.write(k == 0 ? "M" : "L");
+        to.write(text(margin + scale_ * at.x()).append(" ").append(text(margin + size.y() - scale_ * at.y())));
       }
       to.write(line->is_closed ? "Z\"/>\n" : "\"/>\n");
     }

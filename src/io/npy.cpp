@@ -123,11 +123,6 @@ NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::f
   return header;
 }
 
-NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown) {
-  const NpyHeader header = parseNpyHeader(bytes, bytes.size(), shown);
-  return {header, bytes.substr(header.bytes)};
-}
-
 FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown) {
   if (header.type) return *header.type;
   const bool is_swapped = typeNamed(header.descr, ">").has_value();
@@ -137,10 +132,10 @@ FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown
                              : ", must be of integers of 1 to 8 bytes, float32 or float64"));
 }
 
-std::vector<double> numbersOf(const NpyArray& array, const std::filesystem::path& shown) {
-  const FieldType type = numberType(array, shown);
-  std::vector<double> numbers(static_cast<std::size_t>(array.size()));
-  const auto* const bytes = reinterpret_cast<const std::byte*>(array.values.data());
+std::vector<double> numbersOf(const NpyHeader& header, std::string_view values, const std::filesystem::path& shown) {
+  const FieldType type = numberType(header, shown);
+  std::vector<double> numbers(values.size() / sizeOf(type));
+  const auto* const bytes = reinterpret_cast<const std::byte*>(values.data());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = valueOf(type, bytes + i * sizeOf(type));
   return numbers;
 }

@@ -28,12 +28,12 @@ bool isOrthonormal(const Eigen::RowVector3d& x, const Eigen::RowVector3d& normal
 std::vector<double> readRows(const std::filesystem::path& path, std::vector<std::int64_t> shape, bool may_be_empty,
                              const std::string& content) {
   const std::string bytes = readBytes(path);
-  const NpyArray array = parseNpy(bytes, path);
+  const NpyHeader array = parseNpyHeader(bytes, bytes.size(), path);
   std::string wanted;
   for (const std::int64_t length : shape) wanted += (wanted.empty() ? "" : " x ") + std::to_string(length);
   if (may_be_empty && !array.shape.empty() && array.shape[0] == 0) shape[0] = 0;
   if (array.shape != shape) refuse(path, "is not an array of " + wanted + " values, " + content);
-  return numbersOf(array, path);
+  return numbersOf(array, std::string_view(bytes).substr(array.bytes), path);
 }
 
 }  // namespace
