@@ -70,8 +70,14 @@ std::size_t sizeOf(FieldType type) {
   return visitType(type, [](auto zero) { return sizeof(zero); });
 }
 
-bool isInteger(FieldType type) {
-  return visitType(type, [](auto zero) { return std::is_integral_v<decltype(zero)>; });
+char kindOf(FieldType type) {
+  return visitType(type, []<class T>(T) { return !std::is_integral_v<T> ? 'f' : std::is_signed_v<T> ? 'i' : 'u'; });
+}
+
+std::optional<FieldType> typeOf(char kind, std::size_t size) {
+  for (int number = 0; number <= static_cast<int>(FieldType::float64); ++number)
+    if (const auto type = static_cast<FieldType>(number); kindOf(type) == kind && sizeOf(type) == size) return type;
+  return std::nullopt;
 }
 
 double valueOf(FieldType type, const std::byte* bytes) {

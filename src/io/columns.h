@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,7 +42,13 @@ decltype(auto) visitType(FieldType type, Visitor&& visit) {
 
 std::size_t sizeOf(FieldType type);
 
-bool isInteger(FieldType type);
+/// i for signed integers, u for unsigned ones, f for floats.
+char kindOf(FieldType type);
+inline bool isInteger(FieldType type) {
+  return kindOf(type) != 'f';
+}
+/// The type of a kind, as kindOf() names it, and a size in bytes; nullopt if there is none.
+std::optional<FieldType> typeOf(char kind, std::size_t size);
 /// The value at `bytes`, in native byte order. 64-bit integers beyond 2^53 are rounded.
 double valueOf(FieldType type, const std::byte* bytes);
 /// Parses a token and stores it at `bytes`. Returns false if it is not a number of that type.

@@ -11,7 +11,6 @@
 #include "io/npz_reader.h"
 
 namespace tufted::io {
-
 namespace {
 
 /// Reads the mate of each side. Stops at the first side that is glued to itself or not back, to bound the memory: a

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace tufted::io {
 namespace {
@@ -39,53 +40,19 @@ void addAxes(Names& names, const std::array<const char*, 3>& axes, const std::ve
 /// and VeloView append a colon and a number to the values of one array.
 Names makeNames() {
   Names names;
-  for (const char* name : {"rgb",
-                           "rgba",
-                           "red",
-                           "green",
-                           "blue",
-                           "alpha",
-                           "intensity",
-                           "ring",
-                           "azimuth",
-                           "label",
-                           "classification",
-                           "gps_time",
-                           "return_number",
-                           "number_of_returns",
-                           "scan_direction",
-                           "edge_of_flight_line",
-                           "scan_angle_rank",
-                           "scan_angle",
-                           "scanner_channel",
-                           "user_data",
-                           "point_source_id",
-                           "synthetic",
-                           "key_point",
-                           "withheld",
-                           "overlap",
-                           "nir"})
-    names[lettersOf(name)] = name;
+  std::istringstream own(
+      "rgb rgba red green blue alpha intensity ring azimuth label classification gps_time return_number "
+      "number_of_returns scan_direction edge_of_flight_line scan_angle_rank scan_angle scanner_channel "
+      "user_data point_source_id synthetic key_point withheld overlap nir");
+  for (std::string name; own >> name;) names[lettersOf(name)] = name;
   const std::vector<std::string> places = {"points", "pointsmxyz", "position", "positions", "coordinates", "xyz"};
   addAxes(names, {"x", "y", "z"}, {"", "pos", "position", "point", "points", "coord", "coordinate", "location"},
           places);
   addAxes(names, {"nx", "ny", "nz"}, {"n", "norm", "normal", "normals"}, {"normal", "normals"});
-  for (const auto& [other, name] :
-       std::initializer_list<std::pair<const char*, const char*>>{{"easting", "x"},
-                                                                  {"northing", "y"},
-                                                                  {"elevation", "z"},
-                                                                  {"altitude", "z"},
-                                                                  {"height", "z"},
-                                                                  {"i", "intensity"},
-                                                                  {"laserid", "ring"},
-                                                                  {"ringid", "ring"},
-                                                                  {"scandirectionflag", "scan_direction"},
-                                                                  {"scanchannel", "scanner_channel"},
-                                                                  {"infrared", "nir"},
-                                                                  {"r", "red"},
-                                                                  {"g", "green"},
-                                                                  {"b", "blue"}})
-    names[other] = name;
+  std::istringstream others(  // pairs of another name and ours
+      "easting x northing y elevation z altitude z height z i intensity laserid ring ringid ring "
+      "scandirectionflag scan_direction scanchannel scanner_channel infrared nir r red g green b blue");
+  for (std::string other, name; others >> other >> name;) names[other] = name;
   for (const std::string stem : {"points", "pointsmxyz"})  // names of newer ParaView versions
     for (std::size_t c = 0; c < 3; ++c) names[stem + std::to_string(c)] = std::string(1, "xyz"[c]);
   for (const std::string stem : {"diffuse", "color", "colour", "vertex"})

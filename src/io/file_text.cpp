@@ -1,5 +1,10 @@
 #include "io/file_text.h"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -33,6 +38,24 @@ std::string readBytes(const std::filesystem::path& path) {
   if (count < bytes.size() && std::ferror(file.get())) refuseErrno(path, "read", errno);
   bytes.resize(count);
   return bytes;
+}
+
+MappedFile::MappedFile(const std::filesystem::path& path) {
+  std::error_code error;
+  // A pipe must not be opened: its writer would fail when it is closed again.
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  const int file = ::open(path.c_str(), O_RDONLY);
+  struct stat status = {};
+  if (file < 0) return;
+  if (fstat(file, &status) == 0 && status.st_size > 0) {
+    void* const begin = mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, file, 0);
+    if (begin != MAP_FAILED) bytes_ = {static_cast<const char*>(begin), static_cast<std::size_t>(status.st_size)};
+  }
+  ::close(file);
+}
+
+MappedFile::~MappedFile() {
+  if (!bytes_.empty()) munmap(const_cast<char*>(bytes_.data()), bytes_.size());
 }
 
 }  // namespace tufted::io

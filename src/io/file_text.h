@@ -2,11 +2,27 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace tufted::io {
 
 /// Reads all bytes of a file.
 /// @throws IoError if it is missing, empty, not a regular file (a directory, a pipe), or cannot be read
 std::string readBytes(const std::filesystem::path& path);
+
+/// The bytes of a regular file, which the system reads from disk where they are looked at. Empty if that is not
+/// possible.
+class MappedFile {
+ public:
+  explicit MappedFile(const std::filesystem::path& path);
+  ~MappedFile();
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  std::string_view bytes() const { return bytes_; }
+
+ private:
+  std::string_view bytes_;
+};
 
 }  // namespace tufted::io

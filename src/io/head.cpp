@@ -1,17 +1,12 @@
 #include "tufted/io/head.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "io/errors.h"
+#include "io/file_text.h"
 #include "io/formats.h"
 #include "io/las_header.h"
 #include "io/pcd_header.h"
@@ -19,35 +14,6 @@
 
 namespace tufted {
 namespace {
-
-/// The bytes of a regular file, which the system reads from disk where they are looked at. Empty if that is not
-/// possible.
-class MappedFile {
- public:
-  explicit MappedFile(const std::filesystem::path& path) {
-    std::error_code error;
-    // A pipe must not be opened: its writer would fail when it is closed again.
-    if (!std::filesystem::is_regular_file(path, error)) return;
-    const int file = open(path.c_str(), O_RDONLY);
-    struct stat status = {};
-    if (file < 0) return;
-    if (fstat(file, &status) == 0 && status.st_size > 0) {
-      void* const begin = mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, file, 0);
-      if (begin != MAP_FAILED) bytes_ = {static_cast<const char*>(begin), static_cast<std::size_t>(status.st_size)};
-    }
-    close(file);
-  }
-  ~MappedFile() {
-    if (!bytes_.empty()) munmap(const_cast<char*>(bytes_.data()), bytes_.size());
-  }
-  MappedFile(const MappedFile&) = delete;
-  MappedFile& operator=(const MappedFile&) = delete;
-
-  std::string_view bytes() const { return bytes_; }
-
- private:
-  std::string_view bytes_;
-};
 
 bool hasNormals(const std::vector<Field>& fields) {
   int found = 0;
@@ -78,7 +44,7 @@ FileHead headOfPcd(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 FileHead headOfPly(const std::filesystem::path& path, std::string_view bytes) {
-  const io::PlyHeader header = io::parsePlyHeader(path, bytes, bytes.size());
+  const io::PlyHeader header = io::parsePlyHeader(path, bytes);
   const auto element = [&](const char* name) {
     return std::find_if(header.elements.begin(), header.elements.end(),
                         [name](const io::PlyElement& each) { return each.name == name; });
@@ -95,7 +61,7 @@ FileHead headOfPly(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 FileHead headOfLas(const std::filesystem::path& path, std::string_view bytes) {
-  const io::LasHeader header = io::parseLasHeader(path, bytes, bytes.size());
+  const io::LasHeader header = io::parseLasHeader(path, bytes);
   FileHead head = {.geometry = io::lasWithoutPoints(header), .points = header.points};
   head.geometry.width = static_cast<int>(io::checkedRows(path, header.points));
   return head;
@@ -104,7 +70,7 @@ FileHead headOfLas(const std::filesystem::path& path, std::string_view bytes) {
 }  // namespace
 
 std::optional<FileHead> readHead(const std::filesystem::path& path, ReadAs as) {
-  const MappedFile file(path);
+  const io::MappedFile file(path);
   if (file.bytes().empty()) return std::nullopt;
   FileHead head;
   switch (io::formatOf(path, file.bytes())) {

@@ -5,7 +5,6 @@
 #include "io/columns.h"
 #include "io/formats.h"
 #include "io/las_header.h"
-#include "io/las_items.h"
 #include "io/unread.h"
 
 // Reads the points of LAS files (ASPRS, LAS Specification 1.4 R15). PDAL, Debian's only library for
@@ -98,7 +97,7 @@ Geometry lasWithoutPoints(const LasHeader& header) {
 
 Geometry readLas(const std::filesystem::path& path, std::string_view bytes) {
   static_assert(std::endian::native == std::endian::little, "the values are taken as they lie in the file");
-  const LasHeader header = parseLasHeader(path, bytes, bytes.size());
+  const LasHeader header = parseLasHeader(path, bytes);
   const std::vector<LasItem> items = lasItems(header.point_format);
   Geometry geometry = withAllFields(header);
   geometry.width = static_cast<int>(checkedRows(path, header.points));

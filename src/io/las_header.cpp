@@ -30,8 +30,7 @@ std::string fieldName(std::string_view text, std::size_t number) {
 
 class LasHeaderParser {
  public:
-  LasHeaderParser(const std::filesystem::path& path, std::string_view bytes, std::uint64_t all)
-      : path_(path), bytes_(bytes), all_(all) {}
+  LasHeaderParser(const std::filesystem::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
 
   LasHeader parse() {
     if (!bytes_.starts_with("LASF")) refuseByte(path_, 0, "does not begin with 'LASF'");
@@ -75,8 +74,9 @@ class LasHeaderParser {
     if (header_bytes_ < least || header_bytes_ > bytes_.size())
       refuseByte(path_, 94, "a header of " + std::to_string(header_bytes_) + " bytes");
     header_.body = at<std::uint32_t>(96);
-    if (header_.body < header_bytes_ || header_.body > all_)
-      refuseByte(path_, 96, "the points begin at byte " + std::to_string(header_.body) + " of " + std::to_string(all_));
+    if (header_.body < header_bytes_ || header_.body > bytes_.size())
+      refuseByte(path_, 96,
+                 "the points begin at byte " + std::to_string(header_.body) + " of " + std::to_string(bytes_.size()));
   }
 
   void readPointFormat() {
@@ -98,7 +98,7 @@ class LasHeaderParser {
     std::uint64_t count = at<std::uint32_t>(107);
     std::size_t place = 107;
     if (header_.minor == 4 && at<std::uint64_t>(247) != 0) count = at<std::uint64_t>(place = 247);
-    const std::uint64_t rest = all_ - header_.body;
+    const std::uint64_t rest = bytes_.size() - header_.body;
     if (count > rest / header_.record_bytes)
       refuseByte(path_, place,
                  std::to_string(count) + " points of " + std::to_string(header_.record_bytes) +
@@ -108,7 +108,7 @@ class LasHeaderParser {
 
   /// Finds where the points end: waveforms (LAS 1.3) or extended variable length records (1.4) may follow.
   void findEnd() {
-    header_.end = all_;
+    header_.end = bytes_.size();
     const std::size_t points = header_.body + static_cast<std::size_t>(header_.points) * header_.record_bytes;
     const auto addPart = [&](std::uint64_t begin) {
       if (begin >= points && begin < header_.end) header_.end = static_cast<std::size_t>(begin);
@@ -220,7 +220,6 @@ class LasHeaderParser {
 
   const std::filesystem::path& path_;
   std::string_view bytes_;
-  std::uint64_t all_;
   std::size_t header_bytes_ = 0;
   std::uint32_t kept_records_ = 0;
   LasHeader header_;
@@ -233,8 +232,8 @@ std::size_t lasPointBytes(int point_format) {
   return bytes[point_format];
 }
 
-LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes, std::uint64_t all) {
-  return LasHeaderParser(path, bytes, all).parse();
+LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes) {
+  return LasHeaderParser(path, bytes).parse();
 }
 
 }  // namespace tufted::io

@@ -57,12 +57,24 @@ void put(std::string& bytes, std::size_t byte, T value) {
 std::size_t lasPointBytes(int point_format);
 
 /// Parses a header and checks that the file is long enough for the points it counts.
-/// @param bytes the file as far as its points at least; records after the points are seen if they are there too
-/// @param all size of the whole file
+/// @param bytes the whole file
 /// @throws IoError naming the byte
-LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes, std::uint64_t all);
+LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes);
 
 /// What a LAS file holds except its points: format, names of the fields, and Geometry::las_header.
 Geometry lasWithoutPoints(const LasHeader& header);
+
+/// The place of a value in a point record of a LAS file: some bytes, or some bits of one byte.
+struct LasItem {
+  const char* name;
+  FieldType type;
+  int byte;
+  int first_bit = 0;
+  int bits = 0;  ///< 0: the whole value
+};
+
+/// The items of point format 0 to 10 after x, y, z, in the order of their bytes (ASPRS, LAS Specification 1.4 R15,
+/// Tables 10 to 22).
+std::vector<LasItem> lasItems(int format);
 
 }  // namespace tufted::io

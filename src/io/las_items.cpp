@@ -1,4 +1,3 @@
-#include "io/las_items.h"
 
 #include <iterator>
 

@@ -1,5 +1,3 @@
-#include "io/las_writer.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,9 +8,9 @@
 
 #include "io/columns.h"
 #include "io/las_header.h"
-#include "io/las_items.h"
-#include "io/output_buffer.h"
+#include "io/output_file.h"
 #include "io/point_table.h"
+#include "io/point_writers.h"
 #include "tufted/errors.h"
 #include "tufted/version.h"
 
@@ -115,13 +113,11 @@ class LasWriter {
   void write(const OutputPath& to) const {
     OutputFile file(to);
     file.write(header_);
-    OutputBuffer buffer(file);
     std::string record(record_bytes_, '\0');
     for (Eigen::Index i = 0; i < points_.rows(); ++i) {
       fill(i, record);
-      buffer.append(record);
+      file.write(record);
     }
-    buffer.flush();
     file.close();
   }
 

@@ -10,7 +10,7 @@
 
 #include "io/line_files.h"
 #include "io/number.h"
-#include "io/output_buffer.h"
+#include "io/output_file.h"
 
 namespace tufted::io {
 namespace {
@@ -40,7 +40,7 @@ std::string colorAt(double share) {
   std::string color = "rgb(";
   for (std::size_t channel = 0; channel < 3; ++channel) {
     const double level = std::lerp(colors[from][channel], colors[from + 1][channel], 2 * share - double(from));
-    color += (channel > 0 ? "," : "") + std::to_string(std::lround(level));
+    color.append(channel > 0 ? "," : "").append(std::to_string(std::lround(level)));
   }
   return color + ")";
 }
@@ -66,52 +66,52 @@ class Drawing {
     scale_ = extent > panel / std::numeric_limits<double>::max() ? panel / extent : 0;
   }
 
-  void write(OutputBuffer& to) const {
+  void write(OutputFile& to) const {
     const Eigen::Vector2d size = drawn_.empty() ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(scale_ * box_.sizes());
     const bool has_legend = values_.size() > 1 || (values_.size() == 1 && values_[0] != 0);
     const double rows = has_legend ? std::min<double>(double(values_.size()), most_named) : 0;
     const double width = std::max(size.x(), legend) + 2 * margin, height = std::max(size.y(), margin * rows);
-    to.append("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + text(width + (has_legend ? legend : 0)) +
-              "\" height=\"" + text(height + 4 * margin) +
-              "\" font-family=\"sans-serif\" font-size=\"13\">\n<title>Plan of lines</title>\n<desc>Seen from above: "
-              "x to the right, y up.</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<g fill=\"none\" "
-              "stroke-width=\"1.5\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
+    to.write("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + text(width + (has_legend ? legend : 0)) +
+             "\" height=\"" + text(height + 4 * margin) +
+             "\" font-family=\"sans-serif\" font-size=\"13\">\n<title>Plan of lines</title>\n<desc>Seen from above: "
+             "x to the right, y up.</desc>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<g fill=\"none\" "
+             "stroke-width=\"1.5\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
     for (const Polyline* line : drawn_) {
-      to.append("<path stroke=\"" + colorOf(line->value) + "\" d=\"");
+      to.write("<path stroke=\"" + colorOf(line->value) + "\" d=\"");
       // A line of one place has a second point, without which round caps are not drawn.
       for (Eigen::Index k = 0; k < std::max<Eigen::Index>(2, line->points.rows()); ++k) {
         const Eigen::Vector2d at = halved(line->points.row(std::min(k, line->points.rows() - 1))) - box_.min();
-        to.append(std::string(k == 0 ? "M" : "L") + text(margin + scale_ * at.x()) + " " +
-                  text(margin + size.y() - scale_ * at.y()));
+        to.write(k == 0 ? "M" : "L");
+        to.write(text(margin + scale_ * at.x()).append(" ").append(text(margin + size.y() - scale_ * at.y())));
       }
-      to.append(line->is_closed ? "Z\"/>\n" : "\"/>\n");
+      to.write(line->is_closed ? "Z\"/>\n" : "\"/>\n");
     }
-    to.append("</g>\n");
+    to.write("</g>\n");
     if (scale_ > 0) {
       const double length = roundLength(panel / 4 / scale_ * 2), y = height + 2 * margin;
-      to.append("<path stroke=\"black\" d=\"M" + text(margin) + " " + text(y) + "h" + text(scale_ * (length / 2)) +
-                "\"/>\n");
-      write(to, margin, y + margin, rounded(length) + " in the unit of the points");
+      to.write("<path stroke=\"black\" d=\"M" + text(margin) + " " + text(y) + "h" + text(scale_ * (length / 2)) +
+               "\"/>\n");
+      writeWords(to, margin, y + margin, rounded(length) + " in the unit of the points");
     } else {
-      write(to, margin, height + 3 * margin, drawn_.empty() ? "No lines" : "All lines are at one place");
+      writeWords(to, margin, height + 3 * margin, drawn_.empty() ? "No lines" : "All lines are at one place");
     }
     for (int row = 0; row < rows; ++row) {
       // The largest value stands at the top; of many values, evenly spaced ones are named.
       const double share = rows > 1 ? 1 - row / (rows - 1) : 0;
       const double value = values_[std::size_t(std::lround(share * double(values_.size() - 1)))];
       const double y = margin * (row + 1);
-      to.append("<path stroke-width=\"3\" stroke=\"" + colorOf(value) + "\" d=\"M" + text(width) + " " + text(y) +
-                "h20\"/>\n");
-      write(to, width + 1.5 * margin, y + 4, rounded(value));
+      to.write("<path stroke-width=\"3\" stroke=\"" + colorOf(value) + "\" d=\"M" + text(width) + " " + text(y) +
+               "h20\"/>\n");
+      writeWords(to, width + 1.5 * margin, y + 4, rounded(value));
     }
-    to.append("</svg>\n");
+    to.write("</svg>\n");
   }
 
  private:
   /// x and y, halved so that differences of any two do not overflow.
   static Eigen::Vector2d halved(const Eigen::RowVector3d& point) { return {point.x() / 2, point.y() / 2}; }
-  static void write(OutputBuffer& to, double x, double y, const std::string& words) {
-    to.append("<text x=\"" + text(x) + "\" y=\"" + text(y) + "\">" + words + "</text>\n");
+  static void writeWords(OutputFile& to, double x, double y, const std::string& words) {
+    to.write("<text x=\"" + text(x) + "\" y=\"" + text(y) + "\">" + words + "</text>\n");
   }
   std::string colorOf(double value) const {
     const auto rank = std::lower_bound(values_.begin(), values_.end(), value) - values_.begin();
@@ -128,9 +128,7 @@ class Drawing {
 
 void writeLinesSvg(const OutputPath& to, const std::vector<Polyline>& lines) {
   OutputFile file(to);
-  OutputBuffer buffer(file);
-  Drawing(lines).write(buffer);
-  buffer.flush();
+  Drawing(lines).write(file);
   file.close();
 }
 

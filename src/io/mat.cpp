@@ -1,5 +1,3 @@
-#include "io/mat.h"
-
 #include <bit>
 #include <initializer_list>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <string_view>
 
 #include "io/errors.h"
+#include "io/matrix_writers.h"
 
 namespace tufted::io {
 namespace {

@@ -1,10 +1,10 @@
-#include "io/matrix_petsc.h"
-
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <vector>
+
+#include "io/matrix_writers.h"
 
 namespace tufted::io {
 namespace {

@@ -1,41 +1,24 @@
-#include "io/matrix_text.h"
-
 #include <string>
 
-#include "io/output_buffer.h"
+#include "io/matrix_writers.h"
+#include "io/output_file.h"
 
 namespace tufted::io {
 namespace {
 
-/// Writes lines of text with rows and columns counted from 1.
-class MatrixText {
- public:
-  explicit MatrixText(const OutputPath& to) : file_(to), buffer_(file_) {}
+void writeLine(OutputFile& file, double value) {
+  file.writeNumber(value);
+  file.write("\n");
+}
 
-  void text(std::string_view text) { buffer_.append(text); }
-
-  void value(double value) {
-    buffer_.appendNumber(value);
-    buffer_.append("\n");
-  }
-
-  void entry(Eigen::Index row, Eigen::Index column, double value) {
-    buffer_.appendInteger(row + 1);
-    buffer_.append(" ");
-    buffer_.appendInteger(column + 1);
-    buffer_.append(" ");
-    this->value(value);
-  }
-
-  void close() {
-    buffer_.flush();
-    file_.close();
-  }
-
- private:
-  OutputFile file_;
-  OutputBuffer buffer_;
-};
+/// Writes a line with row and column counted from 1.
+void writeLine(OutputFile& file, Eigen::Index row, Eigen::Index column, double value) {
+  file.writeInteger(row + 1);
+  file.write(" ");
+  file.writeInteger(column + 1);
+  file.write(" ");
+  writeLine(file, value);
+}
 
 std::string mtxHeader(const std::string& kind, const std::vector<Convention>& conventions) {
   return "%%MatrixMarket matrix " + kind + "\n" + conventionLines(conventions, "% ");
@@ -53,39 +36,39 @@ void visitEntries(const SparseMatrix& matrix, Visitor&& visit) {
 void writeMtx(const OutputPath& to, const SparseMatrix& matrix, const std::vector<Convention>& conventions) {
   std::int64_t lower = 0;
   visitEntries(matrix, [&](Eigen::Index row, Eigen::Index column, double) { lower += row >= column ? 1 : 0; });
-  MatrixText out(to);
-  out.text(mtxHeader("coordinate real symmetric", conventions));
-  out.text(std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + " " + std::to_string(lower) + "\n");
+  OutputFile file(to);
+  file.write(mtxHeader("coordinate real symmetric", conventions));
+  file.write(std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + " " + std::to_string(lower) + "\n");
   visitEntries(matrix, [&](Eigen::Index row, Eigen::Index column, double value) {
-    if (row >= column) out.entry(row, column, value);
+    if (row >= column) writeLine(file, row, column, value);
   });
-  out.close();
+  file.close();
 }
 
 void writeMtx(const OutputPath& to, const VectorXd& values, const std::vector<Convention>& conventions) {
-  MatrixText out(to);
-  out.text(mtxHeader("array real general", conventions));
-  out.text(std::to_string(values.size()) + " 1\n");
-  for (const double value : values) out.value(value);
-  out.close();
+  OutputFile file(to);
+  file.write(mtxHeader("array real general", conventions));
+  file.write(std::to_string(values.size()) + " 1\n");
+  for (const double value : values) writeLine(file, value);
+  file.close();
 }
 
 void writeSpmat(const OutputPath& to, const SparseMatrix& matrix) {
-  MatrixText out(to);
+  OutputFile file(to);
   const Eigen::Index last = matrix.cols() - 1;
   bool has_last = last < 0;
   visitEntries(matrix, [&](Eigen::Index row, Eigen::Index column, double value) {
-    out.entry(row, column, value);
+    writeLine(file, row, column, value);
     has_last = has_last || (row == last && column == last);
   });
-  if (!has_last) out.entry(last, last, 0);
-  out.close();
+  if (!has_last) writeLine(file, last, last, 0);
+  file.close();
 }
 
 void writeSpmat(const OutputPath& to, const VectorXd& values) {
-  MatrixText out(to);
-  for (Eigen::Index i = 0; i < values.size(); ++i) out.entry(i, i, values(i));
-  out.close();
+  OutputFile file(to);
+  for (Eigen::Index i = 0; i < values.size(); ++i) writeLine(file, i, i, values(i));
+  file.close();
 }
 
 }  // namespace tufted::io

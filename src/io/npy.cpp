@@ -3,7 +3,6 @@
 #include <bit>
 #include <cstring>
 #include <limits>
-#include <map>
 
 #include "io/columns.h"
 #include "io/errors.h"
@@ -49,10 +48,11 @@ std::vector<std::int64_t> parseShape(std::string_view text, const std::filesyste
   return shape;
 }
 
-const std::map<std::string, FieldType, std::less<>> types = {
-    {"|i1", FieldType::int8},    {"|u1", FieldType::uint8},  {"<i2", FieldType::int16}, {"<u2", FieldType::uint16},
-    {"<i4", FieldType::int32},   {"<u4", FieldType::uint32}, {"<i8", FieldType::int64}, {"<u8", FieldType::uint64},
-    {"<f4", FieldType::float32}, {"<f8", FieldType::float64}};
+/// The type that numpy calls <f8, |u1, or in the other order of bytes >f8.
+std::optional<FieldType> typeNamed(std::string_view descr, std::string_view orders) {
+  if (descr.size() != 3 || orders.find(descr[0]) == std::string_view::npos) return std::nullopt;
+  return typeOf(descr[1], static_cast<std::size_t>(descr[2] - '0'));
+}
 
 }  // namespace
 
@@ -114,33 +114,28 @@ NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::f
   header.descr = layout.descr.substr(1, end - 1);
   header.shape = layout.shape;
   const std::uint64_t values = all - header.bytes;
-  if (const auto type = types.find(header.descr); type != types.end()) {
-    header.type = type->second;
-    if (values != static_cast<std::uint64_t>(header.size()) * sizeOf(type->second))
+  header.type = typeNamed(header.descr, "<|");
+  if (header.type) {
+    if (values != static_cast<std::uint64_t>(header.size()) * sizeOf(*header.type))
       refuseByte(shown, header.bytes,
                  "has " + std::to_string(values) + " bytes of values, its shape says another number");
   }
   return header;
 }
 
-NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown) {
-  const NpyHeader header = parseNpyHeader(bytes, bytes.size(), shown);
-  return {header, bytes.substr(header.bytes)};
-}
-
 FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown) {
   if (header.type) return *header.type;
-  const bool is_swapped = header.descr.starts_with('>') && types.count("<" + header.descr.substr(1)) > 0;
+  const bool is_swapped = typeNamed(header.descr, ">").has_value();
   refuseByte(shown, npy_dictionary,
              "is an array of " + quote(header.descr) +
                  (is_swapped ? ", which are big-endian, must be little-endian"
                              : ", must be of integers of 1 to 8 bytes, float32 or float64"));
 }
 
-std::vector<double> numbersOf(const NpyArray& array, const std::filesystem::path& shown) {
-  const FieldType type = numberType(array, shown);
-  std::vector<double> numbers(static_cast<std::size_t>(array.size()));
-  const auto* const bytes = reinterpret_cast<const std::byte*>(array.values.data());
+std::vector<double> numbersOf(const NpyHeader& header, std::string_view values, const std::filesystem::path& shown) {
+  const FieldType type = numberType(header, shown);
+  std::vector<double> numbers(values.size() / sizeOf(type));
+  const auto* const bytes = reinterpret_cast<const std::byte*>(values.data());
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = valueOf(type, bytes + i * sizeOf(type));
   return numbers;
 }

@@ -55,18 +55,11 @@ NpyLayout parseNpyLayout(std::string_view bytes, const std::filesystem::path& sh
 /// @throws IoError for another size, Fortran order, or a file that is not a .npy file of version 1 to 3
 NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown);
 
-/// A .npy file in memory.
-struct NpyArray : NpyHeader {
-  std::string_view values;  ///< a part of the bytes that were parsed
-};
-
-/// Parses a whole file. Errors are those of parseNpyHeader().
-NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown);
-
 /// The type of an array of numbers. @throws IoError for an array that does not hold numbers
 FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown);
 
-/// The numbers as doubles, in the order of the file. @throws IoError for an array that does not hold numbers
-std::vector<double> numbersOf(const NpyArray& array, const std::filesystem::path& shown);
+/// Numbers as doubles, in the order of the file. @throws IoError for an array that does not hold numbers
+/// @param values bytes of whole numbers of the array
+std::vector<double> numbersOf(const NpyHeader& header, std::string_view values, const std::filesystem::path& shown);
 
 }  // namespace tufted::io

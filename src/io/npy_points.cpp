@@ -3,10 +3,12 @@
 
 #include "io/columns.h"
 #include "io/errors.h"
+#include "io/file_text.h"
 #include "io/formats.h"
 #include "io/npy.h"
 #include "io/npy_table.h"
 #include "io/unread.h"
+#include "tufted/io/results.h"
 
 namespace tufted::io {
 
@@ -15,7 +17,7 @@ bool looksLikeNpy(std::string_view bytes) {
 }
 
 Geometry readNpy(const std::filesystem::path& path, std::string_view bytes) {
-  const NpyTable table = parseNpyTable(bytes, bytes.size(), path);
+  const NpyTable table = parseNpyTable(bytes, path);
   const bool is_named = !table.members.empty();
   if (!is_named && (table.columns < 3 || (table.columns > 3 && table.columns > table.rows() && table.rows() > 0)))
     refuseByte(path, npy_dictionary,
@@ -41,3 +43,17 @@ Geometry readNpy(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 }  // namespace tufted::io
+
+Eigen::MatrixXd tufted::readArray(const std::filesystem::path& path) {
+  const std::string bytes = io::readBytes(path);
+  const io::NpyTable array = io::parseNpyTable(bytes, path, true);
+  if (array.dimensions > 2) io::refuse(path, "is not an array of N or of N x c values");
+  if (array.end < bytes.size())
+    io::refuseByte(path, array.end, std::to_string(bytes.size() - array.end) + " bytes behind the values of the array");
+  Eigen::MatrixXd values(array.rows(), array.columns);
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    const Field column = array.field(c);
+    for (Eigen::Index i = 0; i < values.rows(); ++i) values(i, c) = valueOf(column, static_cast<std::size_t>(i));
+  }
+  return values;
+}

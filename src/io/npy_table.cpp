@@ -78,20 +78,12 @@ std::optional<NpyColumn> realType(std::string_view text) {
   if (text.size() < 3 || std::string_view("<>|=").find(text[0]) == std::string_view::npos) return std::nullopt;
   NpyColumn column = {"", FieldType::float64, text[1], 0, text[0] == '>', 0};
   if (!parseNumber(text.substr(2), column.size)) return std::nullopt;
-  const int power = column.size > 8 || !std::has_single_bit(column.size) ? -1 : std::countr_zero(column.size);
-  constexpr FieldType with_sign[] = {FieldType::int8, FieldType::int16, FieldType::int32, FieldType::int64};
-  constexpr FieldType without[] = {FieldType::uint8, FieldType::uint16, FieldType::uint32, FieldType::uint64};
-  if (power < 0) return std::nullopt;
-  if (column.kind == 'i')
-    column.type = with_sign[power];
-  else if (column.kind == 'u')
-    column.type = without[power];
-  else if (column.kind == 'b' && power == 0)
-    column.type = FieldType::uint8;
-  else if (column.kind == 'f' && power > 0)
-    column.type = power == 3 ? FieldType::float64 : FieldType::float32;
-  else
-    return std::nullopt;
+  const std::string_view name = text.substr(1);
+  const std::optional<FieldType> type = name == "f2"   ? FieldType::float32
+                                        : name == "b1" ? FieldType::uint8
+                                                       : typeOf(column.kind, column.size);
+  if (!type) return std::nullopt;
+  column.type = *type;
   return column;
 }
 
@@ -106,15 +98,15 @@ float fromHalf(std::uint16_t half) {
 
 class TableParser {
  public:
-  TableParser(std::string_view bytes, std::size_t all, const std::filesystem::path& shown, bool is_flat)
-      : bytes_(bytes), all_(all), shown_(shown), is_flat_(is_flat), layout_(parseNpyLayout(bytes, shown)) {}
+  TableParser(std::string_view bytes, const std::filesystem::path& shown, bool is_flat)
+      : bytes_(bytes), shown_(shown), is_flat_(is_flat), layout_(parseNpyLayout(bytes, shown)) {}
 
   NpyTable parse() {
     readType();
     table_.values = bytes_.data() + layout_.bytes;
     std::uint64_t values = 1;  // the product of the shape is at most 2^48
     for (const std::int64_t length : layout_.shape) values *= static_cast<std::uint64_t>(length);
-    const std::size_t given = all_ - layout_.bytes;
+    const std::size_t given = bytes_.size() - layout_.bytes;
     if (item_bytes_ > 0 && values > given / item_bytes_)
       refuse("has " + std::to_string(given) + " bytes of values, its shape " + shapeText() + " needs more",
              layout_.bytes);
@@ -213,7 +205,6 @@ class TableParser {
   static constexpr std::uint64_t most_item_bytes = 1 << 14;  // bytes of a structure: more than any point has
 
   std::string_view bytes_;
-  std::size_t all_;
   const std::filesystem::path& shown_;
   bool is_flat_;
   NpyLayout layout_;
@@ -250,8 +241,8 @@ Field NpyTable::field(std::int64_t c) const {
   return field;
 }
 
-NpyTable parseNpyTable(std::string_view bytes, std::size_t all, const std::filesystem::path& shown, bool is_flat) {
-  return TableParser(bytes, all, shown, is_flat).parse();
+NpyTable parseNpyTable(std::string_view bytes, const std::filesystem::path& shown, bool is_flat) {
+  return TableParser(bytes, shown, is_flat).parse();
 }
 
 }  // namespace tufted::io

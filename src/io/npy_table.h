@@ -40,11 +40,9 @@ struct NpyTable {
 };
 
 /// Parses a .npy file and checks that it is long enough. Bytes after `end` are left to the caller.
-/// @param bytes at least the header; the values too if NpyTable::field() is called
-/// @param all size of the whole file
+/// @param bytes the whole file
 /// @param is_flat whether an array of one dimension holds N items of one value
 /// @throws IoError for other types and shapes, saying how to convert them
-NpyTable parseNpyTable(std::string_view bytes, std::size_t all, const std::filesystem::path& shown,
-                       bool is_flat = false);
+NpyTable parseNpyTable(std::string_view bytes, const std::filesystem::path& shown, bool is_flat = false);
 
 }  // namespace tufted::io

@@ -1,5 +1,4 @@
-#include "io/npz.h"
-
+#include "io/matrix_writers.h"
 #include "io/npz_archive.h"
 
 namespace tufted::io {

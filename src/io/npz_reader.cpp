@@ -49,12 +49,8 @@ void NpzArray::takeHeader(std::uint64_t all) {
 }
 
 void NpzArray::readPiece() {
-  const FieldType type = numberType(header_, path_);
   const std::int64_t count = std::min(piece_numbers, size() - taken_);
-  const std::string bytes = take(static_cast<std::size_t>(count) * sizeOf(type));
-  piece_.resize(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < piece_.size(); ++i)
-    piece_[i] = valueOf(type, reinterpret_cast<const std::byte*>(bytes.data()) + i * sizeOf(type));
+  piece_ = numbersOf(header_, take(static_cast<std::size_t>(count) * sizeOf(numberType(header_, path_))), path_);
   place_ = 0;
   taken_ += count;
 }

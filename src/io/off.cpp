@@ -7,7 +7,6 @@
 #include "io/formats.h"
 #include "io/line_scanner.h"
 #include "io/off_binary.h"
-#include "io/off_layout.h"
 #include "io/polygon_soup.h"
 #include "io/unread.h"
 #include "io/vertex_colors.h"

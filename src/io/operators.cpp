@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/frames_file.h"
 #include "io/npz_archive.h"
+#include "io/result_arrays.h"
 #include "io/stage_results.h"
 #include "io/staged_files.h"
 #include "tufted/check.h"

@@ -1,5 +1,6 @@
 #include "io/pcd_header.h"
 
+#include <algorithm>
 #include <cctype>
 #include <limits>
 #include <optional>
@@ -11,17 +12,6 @@
 
 namespace tufted::io {
 namespace {
-
-std::optional<FieldType> fieldType(char kind, std::int64_t size) {
-  constexpr FieldType with_sign[] = {FieldType::int8, FieldType::int16, FieldType::int32, FieldType::int64};
-  constexpr FieldType without[] = {FieldType::uint8, FieldType::uint16, FieldType::uint32, FieldType::uint64};
-  const int power = size == 1 ? 0 : size == 2 ? 1 : size == 4 ? 2 : size == 8 ? 3 : -1;
-  if (power < 0) return std::nullopt;
-  if (kind == 'I') return with_sign[power];
-  if (kind == 'U') return without[power];
-  if (kind == 'F' && power >= 2) return power == 2 ? FieldType::float32 : FieldType::float64;
-  return std::nullopt;
-}
 
 class PcdHeaderParser {
  public:
@@ -52,7 +42,7 @@ class PcdHeaderParser {
     } else if (word == "type") {
       if (tokens.size() != names_.size() + 1) scanner_.refuse("TYPE does not name as many fields as FIELDS");
       for (std::size_t t = 1; t < tokens.size(); ++t)
-        kinds_ += static_cast<char>(std::toupper(static_cast<unsigned char>(tokens[t][0])));
+        kinds_ += static_cast<char>(std::tolower(static_cast<unsigned char>(tokens[t][0])));
     } else if (word == "width") {
       width_ = single();
     } else if (word == "height") {
@@ -99,24 +89,20 @@ class PcdHeaderParser {
 
   void data() {
     const std::string kind = scanner_.tokens().size() == 2 ? lower(scanner_.tokens()[1]) : "";
-    if (kind == "ascii")
-      header_.data = PcdHeader::Data::ascii;
-    else if (kind == "binary")
-      header_.data = PcdHeader::Data::binary;
-    else if (kind == "binary_compressed")
-      header_.data = PcdHeader::Data::binary_compressed;
-    else
-      scanner_.refuse("DATA is none of ascii, binary, binary_compressed");
+    constexpr const char* names[] = {"ascii", "binary", "binary_compressed"};
+    const auto name = std::find(std::begin(names), std::end(names), kind);
+    if (name == std::end(names)) scanner_.refuse("DATA is none of ascii, binary, binary_compressed");
+    header_.data = static_cast<PcdHeader::Data>(name - names);
   }
 
   PcdHeader finish() {
     if (names_.empty()) scanner_.refuse("the header has no FIELDS line");
     // In old files SIZE, TYPE and COUNT may be missing, and each field is a float.
     if (sizes_.empty()) sizes_.assign(names_.size(), 4);
-    if (kinds_.empty()) kinds_.assign(names_.size(), 'F');
+    if (kinds_.empty()) kinds_.assign(names_.size(), 'f');
     if (counts_.empty()) counts_.assign(names_.size(), 1);
     for (std::size_t f = 0; f < names_.size(); ++f) {
-      const auto type = fieldType(kinds_[f], sizes_[f]);
+      const auto type = typeOf(kinds_[f], static_cast<std::size_t>(sizes_[f]));
       if (!type) scanner_.refuse("the field " + quote(names_[f]) + " has an unknown SIZE and TYPE");
       header_.columns.fields.push_back({names_[f], *type, static_cast<int>(counts_[f]), {}});
       header_.row_bytes += sizes_[f] * counts_[f];

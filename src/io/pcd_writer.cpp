@@ -1,13 +1,13 @@
-#include "io/pcd_writer.h"
-
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <string>
 #include <type_traits>
 
 #include "io/columns.h"
-#include "io/output_buffer.h"
+#include "io/output_file.h"
 #include "io/point_table.h"
+#include "io/point_writers.h"
 
 // Not by PCL's PCDWriter, which takes the sensor's pose as float and prints six digits, so that the sensor of a
 // georeferenced scan is metres off, and which needs a copy of all values.
@@ -43,17 +43,12 @@ void addPacked(PointTable& table, const Color& color) {
   table.add({color.channels[3] ? "rgba" : "rgb", FieldType::uint32, 1, made, 4});
 }
 
-char kind(FieldType type) {
-  if (!isInteger(type)) return 'F';
-  return visitType(type, [](auto zero) { return std::is_signed_v<decltype(zero)>; }) ? 'I' : 'U';
-}
-
 std::string header(const PointTable& table, const Geometry& geometry, const std::vector<Convention>& conventions) {
   std::string fields = "FIELDS", sizes = "SIZE", types = "TYPE", counts = "COUNT";
   for (const PointColumn& column : table.columns()) {
     fields.append(" ").append(column.name);
     sizes.append(" ").append(std::to_string(sizeOf(column.type)));
-    types.append(" ").append(1, kind(column.type));
+    types.append(" ").append(1, static_cast<char>(std::toupper(kindOf(column.type))));
     counts.append(" ").append(std::to_string(column.count));
   }
   const bool organized = geometry.height > 1;
@@ -79,9 +74,7 @@ void writePcd(const OutputPath& to, const Laplacian& laplacian, const Geometry& 
   const PointTable table = pointTable(laplacian, geometry, M, {"normal_x", "normal_y", "normal_z"}, add_field);
   OutputFile file(to);
   file.write(header(table, geometry, conventions));
-  OutputBuffer buffer(file);
-  table.write(buffer);
-  buffer.flush();
+  table.write(file);
   file.close();
 }
 

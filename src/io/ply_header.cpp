@@ -13,23 +13,27 @@
 namespace tufted::io {
 namespace {
 
+/// A type by the two names that it may have.
+struct TypeName {
+  const char *name, *other;
+  FieldType type;
+};
+constexpr TypeName type_names[] = {{"char", "int8", FieldType::int8},        {"uchar", "uint8", FieldType::uint8},
+                                   {"short", "int16", FieldType::int16},     {"ushort", "uint16", FieldType::uint16},
+                                   {"int", "int32", FieldType::int32},       {"uint", "uint32", FieldType::uint32},
+                                   {"float", "float32", FieldType::float32}, {"double", "float64", FieldType::float64}};
+
 std::optional<FieldType> fieldType(std::string_view text) {
   const std::string name = lower(text);
-  if (name == "char" || name == "int8") return FieldType::int8;
-  if (name == "uchar" || name == "uint8") return FieldType::uint8;
-  if (name == "short" || name == "int16") return FieldType::int16;
-  if (name == "ushort" || name == "uint16") return FieldType::uint16;
-  if (name == "int" || name == "int32") return FieldType::int32;
-  if (name == "uint" || name == "uint32") return FieldType::uint32;
-  if (name == "float" || name == "float32") return FieldType::float32;
-  if (name == "double" || name == "float64") return FieldType::float64;
+  for (const TypeName& known : type_names)
+    if (name == known.name || name == known.other) return known.type;
   return std::nullopt;
 }
 
 class PlyHeaderParser {
  public:
-  PlyHeaderParser(const std::filesystem::path& path, std::string_view bytes, std::size_t all)
-      : path_(path), all_(all), scanner_(path, bytes) {}
+  PlyHeaderParser(const std::filesystem::path& path, std::string_view bytes)
+      : path_(path), all_(bytes.size()), scanner_(path, bytes) {}
 
   PlyHeader parse() {
     if (!scanner_.next() || lower(scanner_.tokens()[0]) != "ply") refuseLine(path_, 1, "does not begin with 'ply'");
@@ -68,14 +72,11 @@ class PlyHeaderParser {
 
   void format() {
     const std::string name = scanner_.tokens().size() >= 2 ? lower(scanner_.tokens()[1]) : "";
-    if (name == "ascii")
-      header_.format = PlyHeader::Format::ascii;
-    else if (name == "binary_little_endian")
-      header_.format = PlyHeader::Format::little_endian;
-    else if (name == "binary_big_endian")
-      header_.format = PlyHeader::Format::big_endian;
-    else
+    constexpr const char* names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+    const auto known = std::find(std::begin(names), std::end(names), name);
+    if (known == std::end(names))
       scanner_.refuse("the format is none of ascii, binary_little_endian, binary_big_endian");
+    header_.format = static_cast<PlyHeader::Format>(known - names);
     has_format_ = true;
   }
 
@@ -141,8 +142,14 @@ class PlyHeaderParser {
 
 }  // namespace
 
-PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes, std::size_t all) {
-  return PlyHeaderParser(path, bytes, all).parse();
+const char* plyType(FieldType type) {
+  for (const TypeName& known : type_names)
+    if (known.type == type) return known.name;
+  return "double";
+}
+
+PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes) {
+  return PlyHeaderParser(path, bytes).parse();
 }
 
 }  // namespace tufted::io

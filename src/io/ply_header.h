@@ -40,6 +40,9 @@ struct PlyHeader {
 /// @throws IoError naming the line `header_lines` if x, y or z is missing
 Columns columnsOf(const std::filesystem::path& path, std::int64_t header_lines, const PlyElement& vertices);
 
+/// The name of a type in a header; that of double for 64-bit integers, which PLY does not have.
+const char* plyType(FieldType type);
+
 /// The format for people, as Geometry::format has it.
 std::string formatName(const PlyHeader& header);
 
@@ -47,9 +50,8 @@ std::string formatName(const PlyHeader& header);
 void organize(const PlyHeader& header, std::int64_t points, Geometry& geometry);
 
 /// Parses a header and checks that the file is long enough for the elements it counts.
-/// @param bytes at least the header
-/// @param all size of the whole file
+/// @param bytes the whole file
 /// @throws IoError naming the line
-PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes, std::size_t all);
+PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace tufted::io

@@ -1,35 +1,13 @@
-#include "io/ply_writer.h"
-
 #include <cstring>
 #include <string>
 
 #include "io/columns.h"
-#include "io/output_buffer.h"
+#include "io/output_file.h"
+#include "io/ply_header.h"
 #include "io/point_table.h"
+#include "io/point_writers.h"
 
 namespace tufted::io {
-
-const char* plyType(FieldType type) {
-  switch (type) {
-    case FieldType::int8:
-      return "char";
-    case FieldType::uint8:
-      return "uchar";
-    case FieldType::int16:
-      return "short";
-    case FieldType::uint16:
-      return "ushort";
-    case FieldType::int32:
-      return "int";
-    case FieldType::uint32:
-      return "uint";
-    case FieldType::float32:
-      return "float";
-    default:
-      return "double";
-  }
-}
-
 namespace {
 
 const std::byte* toDouble(PointTable& table, const Field& field) {
@@ -76,16 +54,14 @@ void writePly(const OutputPath& to, const Laplacian& laplacian, const Geometry& 
   const PointTable table = pointTable(laplacian, geometry, M, {"nx", "ny", "nz"}, addField);
   OutputFile file(to);
   file.write(header(table, geometry, conventions));
-  OutputBuffer buffer(file);
-  table.write(buffer);
+  table.write(file);
   if (geometry.is_mesh) {
     const std::uint8_t corners = 3;
     for (Eigen::Index f = 0; f < geometry.triangles.rows(); ++f) {
-      buffer.append(&corners, 1);
-      buffer.append(geometry.triangles.data() + 3 * f, 3 * sizeof(int));
+      file.write(&corners, 1);
+      file.write(geometry.triangles.data() + 3 * f, 3 * sizeof(int));
     }
   }
-  buffer.flush();
   file.close();
 }
 

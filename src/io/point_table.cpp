@@ -55,7 +55,7 @@ void PointTable::addTriple(const std::array<const char*, 3>& names, const Points
   for (std::size_t c = 0; c < 3; ++c) add({names[c], type, 1, first + c * bytes, 3 * bytes});
 }
 
-void PointTable::write(OutputBuffer& buffer) const {
+void PointTable::write(OutputFile& file) const {
   struct Source {
     const std::byte* next;
     std::size_t bytes, stride;
@@ -65,7 +65,7 @@ void PointTable::write(OutputBuffer& buffer) const {
     sources.push_back({column.first, sizeOf(column.type) * column.count, column.stride});
   for (std::int64_t i = 0; i < rows_; ++i)
     for (Source& source : sources) {
-      buffer.append(source.next, source.bytes);
+      file.write(source.next, source.bytes);
       source.next += source.stride;
     }
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/output_buffer.h"
+#include "io/output_file.h"
 #include "tufted/io/read.h"
 #include "tufted/laplacian.h"
 
@@ -39,7 +39,7 @@ class PointTable {
   std::int64_t rows() const { return rows_; }
   const std::vector<PointColumn>& columns() const { return columns_; }
   /// Writes the values, point by point.
-  void write(OutputBuffer& buffer) const;
+  void write(OutputFile& file) const;
 
  private:
   std::int64_t rows_;

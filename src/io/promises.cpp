@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "io/errors.h"
-#include "io/frames_file.h"
 #include "io/number.h"
-#include "io/positions_file.h"
+#include "io/result_arrays.h"
 
 namespace tufted::io {
 namespace {

@@ -3,17 +3,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "io/component_edges_file.h"
 #include "io/cover_file.h"
 #include "io/errors.h"
-#include "io/file_text.h"
-#include "io/frames_file.h"
 #include "io/matrix_file.h"
-#include "io/npy.h"
 #include "io/npz_reader.h"
-#include "io/positions_file.h"
 #include "io/promises.h"
 #include "io/report_members.h"
+#include "io/result_arrays.h"
 #include "io/result_folder.h"
 #include "tufted/components.h"
 #include "tufted/io/results.h"
@@ -23,14 +19,6 @@ namespace {
 
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
-
-std::vector<double> readArray(const Path& path, std::size_t length) {
-  const std::string bytes = io::readBytes(path);
-  const io::NpyArray array = io::parseNpy(bytes, path);
-  if (array.shape.size() != 1 || static_cast<std::size_t>(array.size()) != length)
-    io::refuse(path, "is not an array of " + std::to_string(length) + " values, one for each row of L");
-  return io::numbersOf(array, path);
-}
 
 Report readReport(const Json& json, const Path& path) {
   Report report;
@@ -71,18 +59,6 @@ Orientation readOrientation(const Json& json, const Path& path) {
 
 constexpr const char* noise_name = "noise.npy";
 
-/// Reads noise.npy. @return a value for each point, or none
-VectorXd readNoise(const Path& path, std::size_t points) {
-  const Eigen::MatrixXd values = tufted::readArray(path);
-  const auto n = static_cast<Eigen::Index>(points);
-  if ((values.rows() != n && values.rows() != 0) || (values.cols() != 1 && values.rows() > 0))
-    io::refuse(path, "is not an array of " + std::to_string(n) + " values, one for each row of L");
-  for (Eigen::Index i = 0; i < values.rows(); ++i)
-    if (!(values(i, 0) >= 0 && std::isfinite(values(i, 0))))
-      io::refuse(path, "the noise of point " + std::to_string(i) + " is negative or not finite");
-  return values.rows() > 0 ? VectorXd(values.col(0)) : VectorXd();
-}
-
 /// Undoes WriteOptions::dummy. Other entries of points that are not active are kept, so that validation can report
 /// them.
 void removeDummies(Laplacian& laplacian) {
@@ -120,19 +96,19 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   // Arrays with a value per point are not compressed, so their size bounds the number of rows that L may have.
   io::MatrixFile matrix(matrix_path);
   const auto n = static_cast<std::size_t>(matrix.rows());
-  const std::vector<double> mass = readArray(mass_path, n);
+  const std::vector<double> mass = io::readValues(mass_path, n);
   laplacian.M = Eigen::Map<const VectorXd>(mass.data(), matrix.rows());
   const double last = static_cast<double>(n) - 1;
-  for (const int code : io::integersOf(readArray(status_path, n), 0, 3, status_path))
+  for (const int code : io::integersOf(io::readValues(status_path, n), 0, 3, status_path))
     laplacian.status.push_back(static_cast<PointStatus>(code));
-  laplacian.representative = io::integersOf(readArray(representative_path, n), 0, last, representative_path);
-  for (const int code : io::integersOf(readArray(boundary_path, n), 0, 3, boundary_path))
+  laplacian.representative = io::integersOf(io::readValues(representative_path, n), 0, last, representative_path);
+  for (const int code : io::integersOf(io::readValues(boundary_path, n), 0, 3, boundary_path))
     laplacian.boundary.push_back(static_cast<Boundary>(code));
   laplacian.frames = io::readFrames(frames_path, n);
   laplacian.frames.orientation = readOrientation(json, report_path);
   // Older versions did not write these files.
   if (folder.has(io::positions_name)) laplacian.positions = io::readPositions(folder.pathOf(io::positions_name), n);
-  if (folder.has(noise_name)) laplacian.noise = readNoise(folder.pathOf(noise_name), n);
+  if (folder.has(noise_name)) laplacian.noise = io::readNoise(folder.pathOf(noise_name), n);
   laplacian.L = matrix.read();
   if (takes_cover) laplacian.setCover(io::readCover(folder.pathOf("cover.npz"), static_cast<int>(n)));
   const Json written = json.value("write_options", Json::object());

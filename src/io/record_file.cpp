@@ -1,47 +1,29 @@
 #include "io/record_file.h"
 
 #include <algorithm>
-#include <cstring>
-#include <system_error>
 #include <utility>
 
 #include "io/errors.h"
-#include "io/las_header.h"
+#include "io/file_text.h"
 #include "io/unread.h"
 
 namespace tufted::io {
 namespace {
 
-constexpr std::size_t longest_header = std::size_t{1} << 20;  // files with longer ones are read whole
 /// A pass in batches of eight times as many points took seven times as long: these stay in the cache.
 constexpr std::size_t most_points = std::size_t{1} << 15;
-
-/// Whether a header is longer than the beginning of the file that was read.
-bool isLonger(std::string_view bytes) {
-  if (bytes.starts_with("LASF")) {
-    std::uint32_t begin = 0;
-    std::memcpy(&begin, bytes.data() + las_byte::points_begin, sizeof begin);
-    return begin > bytes.size();
-  }
-  if (bytes.starts_with("\x93NUMPY")) return false;
-  return bytes.find(bytes.starts_with("ply") ? "end_header" : "DATA") == std::string_view::npos;
-}
 
 }  // namespace
 
 std::shared_ptr<RecordFile> RecordFile::open(const std::filesystem::path& path, std::size_t batch_bytes) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return nullptr;
+  const MappedFile mapped(path);
+  if (mapped.bytes().empty()) return nullptr;
   const auto file = std::make_shared<RecordFile>();
   file->path_ = path;
   file->file_.rdbuf()->pubsetbuf(nullptr, 0);  // every read sees the file as it is
   file->file_.open(path, std::ios::binary);
-  const std::size_t size = std::filesystem::file_size(path, error);
-  if (!file->file_ || error || size == 0) return nullptr;
-  std::string bytes;
-  file->read(0, std::min(size, longest_header), bytes);
-  if (size > longest_header && isLonger(bytes)) return nullptr;
-  std::optional<RecordLayout> layout = recordLayout(path, bytes, size);
+  if (!file->file_) return nullptr;
+  std::optional<RecordLayout> layout = recordLayout(path, mapped.bytes());
   if (!layout) return nullptr;
   const std::size_t point_bytes = layout->record_bytes * static_cast<std::size_t>(layout->columns);
   const std::size_t most = std::clamp<std::size_t>(batch_bytes / point_bytes, 1, most_points);

@@ -32,12 +32,11 @@ struct RecordLayout {
 };
 
 /// The layout of a LAS, binary PLY, binary PCD or NPY file.
-/// @param bytes the file as far as its points at least
-/// @param all size of the whole file
+/// @param bytes the whole file
 /// @return nullopt for files of other formats or without points, compressed ones, PLY with lists or elements before the
 /// points, and grids of NPY in Fortran's order
 /// @throws IoError if the header is not valid, or counts more than the file holds
-std::optional<RecordLayout> recordLayout(const std::filesystem::path& path, std::string_view bytes, std::size_t all);
+std::optional<RecordLayout> recordLayout(const std::filesystem::path& path, std::string_view bytes);
 
 /// A binary file of points that is read in batches, as often as needed.
 class RecordFile {

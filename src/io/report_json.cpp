@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/frames_file.h"
+#include "io/result_arrays.h"
 #include "io/stage_results.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
@@ -36,23 +36,6 @@ Json conventionsObject(const std::vector<io::Convention>& conventions) {
   return json;
 }
 
-const char* name(Gluing gluing) {
-  return gluing == Gluing::star ? "star" : "vertex-pair";
-}
-const char* name(Delaunay delaunay) {
-  return delaunay == Delaunay::star ? "star" : "cgal";
-}
-const char* name(FaceOrder order) {
-  return order == FaceOrder::angle ? "angle" : order == FaceOrder::area ? "area" : "random";
-}
-
-const char* name(const ScanStructure* structure) {
-  return structure == nullptr ? "none" : structure->has_rings ? "rings" : "image";
-}
-const char* name(Sign sign) {
-  return sign == Sign::psd ? "psd" : "igl";
-}
-
 Json denoiseObject(const DenoiseReport& report) {
   return {{"points", report.points},       {"not_finite", report.not_finite},       {"coincident", report.coincident},
           {"moved", report.moved},         {"no_surface", report.no_surface},       {"pixel_fill", report.pixel_fill},
@@ -64,7 +47,9 @@ Json denoiseObject(const DenoiseReport& report) {
 /// The options that clouds and meshes share.
 template <class Options>
 Json commonOptions(const Options& options) {
-  return {{"order", name(options.paper.order)},
+  return {{"order", options.paper.order == FaceOrder::angle  ? "angle"
+                    : options.paper.order == FaceOrder::area ? "area"
+                                                             : "random"},
           {"seed", options.paper.seed},
           {"mollify", options.mollify},
           {"threads", options.threads}};
@@ -72,8 +57,8 @@ Json commonOptions(const Options& options) {
 
 Json optionsObject(const CloudOptions& options) {
   Json json = {{"neighbors", options.neighbors},
-               {"gluing", name(options.paper.gluing)},
-               {"delaunay", name(options.paper.delaunay)},
+               {"gluing", options.paper.gluing == Gluing::star ? "star" : "vertex-pair"},
+               {"delaunay", options.paper.delaunay == Delaunay::star ? "star" : "cgal"},
                {"growth", options.steps.growth == Growth::line ? "line" : "uneven"},
                {"split_sheets", options.steps.split_sheets},
                {"isolate_outliers", options.steps.isolate_outliers},
@@ -82,7 +67,9 @@ Json optionsObject(const CloudOptions& options) {
                {"settle_diagonals", options.steps.settle_diagonals},
                {"denoise", options.steps.denoise},
                {"mass", options.steps.mass == Mass::cover ? "cover" : "star"},
-               {"structure", name(options.structure)},
+               {"structure", options.structure == nullptr   ? "none"
+                             : options.structure->has_rings ? "rings"
+                                                            : "image"},
                {"given_normals", options.normals != nullptr},
                {"given_neighborhoods", options.neighborhoods != nullptr}};
   if (options.viewpoint != nullptr) {
@@ -130,7 +117,7 @@ std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry,
   if (!options.cloud && !options.mesh && !options.build_options.empty())
     json[laplacian.kind == Kind::cloud ? "cloud_options" : "mesh_options"] =
         givenObject("build_options", options.build_options);
-  json["write_options"] = {{"sign", name(options.sign)}, {"dummy", options.dummy}};
+  json["write_options"] = {{"sign", options.sign == Sign::psd ? "psd" : "igl"}, {"dummy", options.dummy}};
   json["files"] = resultFiles(options.formats);
   if (fileRowOf(geometry) != nullptr) json["files"].push_back(file_row_name);
   json["conventions"] = conventionsObject(conventions);

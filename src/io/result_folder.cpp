@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "io/errors.h"
-#include "io/json_file.h"
+#include "io/file_text.h"
 #include "io/report_members.h"
 #include "tufted/io/head.h"
 #include "tufted/io/results.h"
@@ -11,6 +11,22 @@
 namespace tufted {
 
 namespace io {
+namespace {
+
+/// Reads a file of JSON, discarded if it is none. The depth of nesting is bounded, because copying and printing values
+/// recurse.
+nlohmann::json readJson(const std::filesystem::path& path) {
+  using Json = nlohmann::json;
+  // Most levels of nesting: our own files have four, and deep recursion would crash the process.
+  constexpr int most = 32;
+  const auto check = [&path](int depth, Json::parse_event_t, const Json&) {
+    if (depth > most) refuse(path, "is nested deeper than " + std::to_string(most) + " levels");
+    return true;
+  };
+  return Json::parse(readBytes(path), check, false);
+}
+
+}  // namespace
 
 ResultFolder::ResultFolder(const std::filesystem::path& dir) : dir_(dir), report_(readJson(dir / report_name)) {
   if (!report_.is_object()) refuse(reportPath(), "is no report of a result");

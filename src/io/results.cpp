@@ -6,12 +6,10 @@
 
 #include "io/columns.h"
 #include "io/conventions.h"
-#include "io/las_writer.h"
 #include "io/line_files.h"
 #include "io/npy.h"
 #include "io/output_file.h"
-#include "io/pcd_writer.h"
-#include "io/ply_writer.h"
+#include "io/point_writers.h"
 #include "io/pose.h"
 #include "io/report_json.h"
 #include "io/result_folder.h"
@@ -52,11 +50,9 @@ const char* copyName(Format format) {
 template <class Number>
 void writeArray(const io::OutputPath& to, const char* descr, const Eigen::MatrixXd& values) {
   const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = values.cast<Number>();
-  io::OutputFile file(to);
-  file.write(io::npyHeader(descr, values.cols() == 1 ? std::vector<std::int64_t>{values.rows()}
-                                                     : std::vector<std::int64_t>{values.rows(), values.cols()}));
-  file.write(rows.data(), static_cast<std::size_t>(rows.size()) * sizeof(Number));
-  file.close();
+  std::vector<std::int64_t> shape = {values.rows(), values.cols()};
+  if (values.cols() == 1) shape.pop_back();
+  io::writeNpy(to, descr, shape, rows.data());
 }
 
 /// A field of float32, which viewers and PCL take without conversion; NAME.npy keeps all digits.
@@ -108,10 +104,7 @@ const Field* io::fileRowOf(const Geometry& geometry) {
 void io::stageFileRow(StagedFiles& files, const Geometry& geometry) {
   const Field* const field = fileRowOf(geometry);
   if (field == nullptr) return;
-  OutputFile file(files.stage(file_row_name));
-  file.write(npyHeader("<i4", {geometry.points.rows()}));
-  file.write(field->bytes.data(), field->bytes.size());
-  file.close();
+  writeNpy(files.stage(file_row_name), "<i4", {geometry.points.rows()}, field->bytes.data());
 }
 
 void io::stageResults(StagedFiles& files, const Laplacian& laplacian, const Geometry& geometry,
@@ -143,9 +136,7 @@ void io::stageResults(StagedFiles& files, const Laplacian& laplacian, const Geom
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(options.report, nullptr, false);
   if (!json.is_object()) throw InvalidInput("writeResults: the report is no JSON object");
   json["files"] = files.names();
-  OutputFile file(to);
-  file.write(jsonText(json));
-  file.close();
+  writeText(to, jsonText(json));
   report();
 }
 

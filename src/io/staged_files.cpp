@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,7 +12,6 @@
 #include <system_error>
 
 #include "io/errors.h"
-#include "io/open_path.h"
 #include "tufted/errors.h"
 
 namespace tufted::io {
@@ -19,6 +19,36 @@ namespace tufted::io {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// A file or directory opened only to sync or lock it. Errors throw IoError: "path: cannot write: ...".
+class OpenPath {
+ public:
+  /// @param flags for open(2), in addition to O_RDONLY and O_CLOEXEC
+  /// @param shown the path to name in errors
+  OpenPath(const fs::path& path, int flags, const fs::path& shown)
+      : shown_(shown), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags)) {
+    if (file_ < 0) refuseErrno(shown_, "write", errno);
+  }
+  ~OpenPath() { ::close(file_); }
+  OpenPath(const OpenPath&) = delete;
+  OpenPath& operator=(const OpenPath&) = delete;
+
+  /// Flushes the file's content, or the directory's names, to disk.
+  void sync() const {
+    // Some file systems cannot flush a directory, and return EINVAL.
+    if (::fsync(file_) != 0 && errno != EINVAL) refuseErrno(shown_, "write", errno);
+  }
+  /// Waits for an exclusive lock, and holds it until this object is destroyed. Does nothing if the file system has no
+  /// locks.
+  void lock() const {
+    while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+
+ private:
+  fs::path shown_;
+  int file_;
+};
 
 /// Refuses a path that is a directory, a device, a pipe or a link, which renaming would replace.
 void refuseOdd(const fs::path& path) {

@@ -1,15 +1,17 @@
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 
 #include "io/errors.h"
 #include "io/field_names.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
 #include "io/unread.h"
-#include "io/weld.h"
 
 namespace tufted::io {
 namespace {
@@ -19,6 +21,46 @@ constexpr std::size_t facet_bytes = 50;   // normal, three corners, two bytes of
 /// So many bytes at the start of a file tell text from a binary STL, which has a zero byte within its first two
 /// triangles.
 constexpr std::size_t most_of_name = 1024;
+
+using Position = std::array<double, 3>;
+
+struct PositionHash {
+  std::size_t operator()(const Position& position) const {
+    std::uint64_t hash = 0;
+    for (const double c : position) {
+      // Adding zero turns -0 into 0, so that equal numbers have equal hashes.
+      hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 32;
+    }
+    return hash;
+  }
+};
+
+/// Gives equal corners of a soup of triangles one number, in the order in which they come, and counts the others as
+/// `merged_vertices`. Corners that are not finite stay apart.
+/// @param geometry a mesh with points and triangles only
+void weld(Geometry& geometry) {
+  Points& points = geometry.points;
+  std::vector<int> vertex(static_cast<std::size_t>(points.rows()));
+  std::unordered_map<Position, int, PositionHash> seen;
+  seen.reserve(vertex.size());
+  int kept = 0;
+  for (std::size_t i = 0; i < vertex.size(); ++i) {
+    const Position position = {points(i, 0), points(i, 1), points(i, 2)};
+    vertex[i] = kept;
+    // Corners that are not finite are never merged.
+    if (points.row(i).allFinite()) {
+      const auto [entry, inserted] = seen.try_emplace(position, kept);
+      vertex[i] = entry->second;
+      if (!inserted) continue;
+    }
+    points.row(kept++) = points.row(i);  // kept <= i, so nothing is overwritten too early
+  }
+  geometry.merged_vertices = points.rows() - kept;
+  points.conservativeResize(kept, 3);
+  for (int& corner : geometry.triangles.reshaped()) corner = vertex[corner];
+  geometry.width = kept;
+}
 
 /// Corners of triangles; each three in a row are a triangle.
 class Soup {

@@ -156,9 +156,7 @@ TileReport writeLaplacianByTiles(const std::filesystem::path& dir, const PointSo
   if (text.rows) writeFileRows(text, source.size, options, files);
   const io::OutputPath path = files.stage(io::report_name);
   const std::string json = reportText(report, options, text, files.names());
-  io::OutputFile file(path);
-  file.write(json);
-  file.close();
+  io::writeText(path, json);
   files.commit();
   return report;
 }

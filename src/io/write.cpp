@@ -5,27 +5,20 @@
 #include <vector>
 
 #include "io/columns.h"
-#include "io/component_edges_file.h"
 #include "io/conventions.h"
 #include "io/cover_file.h"
-#include "io/frames_file.h"
-#include "io/las_writer.h"
-#include "io/mat.h"
-#include "io/matrix_petsc.h"
-#include "io/matrix_text.h"
+#include "io/matrix_writers.h"
 #include "io/npy.h"
-#include "io/npz.h"
 #include "io/output_file.h"
-#include "io/output_matrices.h"
-#include "io/pcd_writer.h"
-#include "io/ply_writer.h"
+#include "io/point_writers.h"
 #include "io/pose.h"
-#include "io/positions_file.h"
 #include "io/report_json.h"
+#include "io/result_arrays.h"
 #include "io/result_folder.h"
 #include "io/stage_results.h"
 #include "io/staged_files.h"
 #include "tufted/components.h"
+#include "tufted/dummy_values.h"
 #include "tufted/errors.h"
 #include "tufted/surface_triangles.h"
 
@@ -33,106 +26,90 @@ namespace tufted {
 namespace {
 
 using io::OutputPath;
+using Out = const OutputPath&;
 
-/// What the files are written from.
+/// What the files are written from: L and M compressed, with the sign and the dummy values of the options. Only what is
+/// changed is copied; the rest is borrowed.
 struct Results {
+  Results(const Laplacian& written, const Geometry& of, const WriteOptions& by)
+      : laplacian(written), geometry(of), options(by), conventions(io::conventions(written, by)) {
+    if (options.dummy) {
+      changed_L = laplacian.L;
+      changed_M = laplacian.M;
+      setDummyValues(*changed_L, *changed_M, laplacian.status);
+    }
+    if (options.sign != Sign::igl && L().isCompressed()) return;
+    if (!changed_L) changed_L = laplacian.L;
+    changed_L->makeCompressed();
+    if (options.sign == Sign::igl) changed_L->coeffs() = -changed_L->coeffs();
+  }
+  const SparseMatrix& L() const { return changed_L ? *changed_L : laplacian.L; }
+  const VectorXd& M() const { return changed_M ? *changed_M : laplacian.M; }
+
   const Laplacian& laplacian;
   const Geometry& geometry;
   const WriteOptions& options;
-  io::OutputMatrices matrices = {laplacian, options};
-  std::vector<io::Convention> conventions = io::conventions(laplacian, options);
+  std::vector<io::Convention> conventions;
+  std::optional<SparseMatrix> changed_L = {};
+  std::optional<VectorXd> changed_M = {};
 };
 
-template <class T>
-void writeNpy(const OutputPath& to, const char* descr, const T* values, std::size_t length) {
-  io::OutputFile file(to);
-  file.write(io::npyHeader(descr, {static_cast<std::int64_t>(length)}));
-  file.write(values, length * sizeof(T));
-  file.close();
-}
+using In = const Results&;
 
-void writeReport(const OutputPath& to, const Results& results) {
-  io::OutputFile file(to);
-  file.write(io::reportJson(results.laplacian, results.geometry, results.options, results.conventions));
-  file.close();
+/// Writes a value for each point.
+template <class Values>
+void writeValues(const OutputPath& to, const char* descr, const Values& values) {
+  io::writeNpy(to, descr, {static_cast<std::int64_t>(values.size())}, values.data());
 }
 
 struct ResultFile {
   std::optional<Format> format;  ///< nullopt: always written
   const char* name;
-  void (*write)(const OutputPath& to, const Results& results);
+  void (*write)(Out to, In results);
 };
 
 const ResultFile result_files[] = {
-    {Format::npz, "L.npz", [](const OutputPath& to, const Results& r) { io::writeNpz(to, r.matrices.matrix()); }},
-    {Format::npz, "M.npy",
-     [](const OutputPath& to, const Results& r) {
-       writeNpy(to, "<f8", r.matrices.masses().data(), r.laplacian.status.size());
-     }},
-    {Format::npz, "status.npy",
-     [](const OutputPath& to, const Results& r) {
-       writeNpy(to, "|u1", r.laplacian.status.data(), r.laplacian.status.size());
-     }},
-    {Format::npz, "representative.npy",
-     [](const OutputPath& to, const Results& r) {
-       writeNpy(to, "<i4", r.laplacian.representative.data(), r.laplacian.representative.size());
-     }},
-    {Format::npz, "boundary.npy",
-     [](const OutputPath& to, const Results& r) {
-       writeNpy(to, "|u1", r.laplacian.boundary.data(), r.laplacian.boundary.size());
-     }},
-    {Format::npz, "frames.npy",
-     [](const OutputPath& to, const Results& r) { io::writeFrames(to, r.laplacian.frames); }},
-    {Format::npz, "noise.npy",
-     [](const OutputPath& to, const Results& r) {
-       writeNpy(to, "<f8", r.laplacian.noise.data(), static_cast<std::size_t>(r.laplacian.noise.size()));
-     }},
+    {Format::npz, "L.npz", [](Out to, In r) { io::writeNpz(to, r.L()); }},
+    {Format::npz, "M.npy", [](Out to, In r) { writeValues(to, "<f8", r.M()); }},
+    {Format::npz, "status.npy", [](Out to, In r) { writeValues(to, "|u1", r.laplacian.status); }},
+    {Format::npz, "representative.npy", [](Out to, In r) { writeValues(to, "<i4", r.laplacian.representative); }},
+    {Format::npz, "boundary.npy", [](Out to, In r) { writeValues(to, "|u1", r.laplacian.boundary); }},
+    {Format::npz, "frames.npy", [](Out to, In r) { io::writeFrames(to, r.laplacian.frames); }},
+    {Format::npz, "noise.npy", [](Out to, In r) { writeValues(to, "<f8", r.laplacian.noise); }},
     {Format::npz, io::component_edges_name,
-     [](const OutputPath& to, const Results& r) { io::writeComponentEdges(to, r.laplacian.component_edges); }},
-    {Format::cover, "cover.npz",
-     [](const OutputPath& to, const Results& r) { io::writeCover(to, r.laplacian.cover()); }},
-    {Format::mtx, "L.mtx",
-     [](const OutputPath& to, const Results& r) { io::writeMtx(to, r.matrices.matrix(), r.conventions); }},
-    {Format::mtx, "M.mtx",
-     [](const OutputPath& to, const Results& r) { io::writeMtx(to, r.matrices.masses(), r.conventions); }},
-    {Format::mat, "laplacian.mat",
-     [](const OutputPath& to, const Results& r) {
-       io::writeMat(to, r.matrices.matrix(), r.matrices.masses(), r.laplacian, r.conventions);
-     }},
-    {Format::spmat, "L.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.matrix()); }},
-    {Format::spmat, "M.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.masses()); }},
-    {Format::petsc, "L.petsc", [](const OutputPath& to, const Results& r) { io::writePetsc(to, r.matrices.matrix()); }},
-    {Format::petsc, "M.petsc", [](const OutputPath& to, const Results& r) { io::writePetsc(to, r.matrices.masses()); }},
-    {Format::ply, "points.ply",
-     [](const OutputPath& to, const Results& r) {
-       io::writePly(to, r.laplacian, r.geometry, r.matrices.masses(), r.conventions);
-     }},
-    {Format::pcd, "points.pcd",
-     [](const OutputPath& to, const Results& r) {
-       io::writePcd(to, r.laplacian, r.geometry, r.matrices.masses(), r.conventions);
-     }},
-    {Format::las, "points.las",
-     [](const OutputPath& to, const Results& r) { io::writeLas(to, r.laplacian, r.geometry, r.matrices.masses()); }},
+     [](Out to, In r) { io::writeComponentEdges(to, r.laplacian.component_edges); }},
+    {Format::cover, "cover.npz", [](Out to, In r) { io::writeCover(to, r.laplacian.cover()); }},
+    {Format::mtx, "L.mtx", [](Out to, In r) { io::writeMtx(to, r.L(), r.conventions); }},
+    {Format::mtx, "M.mtx", [](Out to, In r) { io::writeMtx(to, r.M(), r.conventions); }},
+    {Format::mat, "laplacian.mat", [](Out to, In r) { io::writeMat(to, r.L(), r.M(), r.laplacian, r.conventions); }},
+    {Format::spmat, "L.spmat", [](Out to, In r) { io::writeSpmat(to, r.L()); }},
+    {Format::spmat, "M.spmat", [](Out to, In r) { io::writeSpmat(to, r.M()); }},
+    {Format::petsc, "L.petsc", [](Out to, In r) { io::writePetsc(to, r.L()); }},
+    {Format::petsc, "M.petsc", [](Out to, In r) { io::writePetsc(to, r.M()); }},
+    {Format::ply, "points.ply", [](Out to, In r) { io::writePly(to, r.laplacian, r.geometry, r.M(), r.conventions); }},
+    {Format::pcd, "points.pcd", [](Out to, In r) { io::writePcd(to, r.laplacian, r.geometry, r.M(), r.conventions); }},
+    {Format::las, "points.las", [](Out to, In r) { io::writeLas(to, r.laplacian, r.geometry, r.M()); }},
     {Format::triangles, "triangles.ply",
-     [](const OutputPath& to, const Results& r) {
+     [](Out to, In r) {
        Geometry surface = r.geometry;
        if (r.laplacian.positions.rows() > 0) surface.points = r.laplacian.positions;
        if (!surface.is_mesh) surface.triangles = surfaceTriangles(r.laplacian);
        surface.is_mesh = true;
        surface.width = surface.height = 0;
-       io::writePly(to, r.laplacian, surface, r.matrices.masses(), r.conventions);
+       io::writePly(to, r.laplacian, surface, r.M(), r.conventions);
      }},
     {std::nullopt, io::positions_name,
-     [](const OutputPath& to, const Results& r) { io::writePositions(to, r.laplacian.positions); }},
+     [](Out to, In r) {
+       io::writeNpy(to, "<f8", {r.laplacian.positions.rows(), 3}, r.laplacian.positions.data());
+     }},
     {std::nullopt, "components.npy",
-     [](const OutputPath& to, const Results& r) {
+     [](Out to, In r) {
        // Computed only here, after earlier formats have refused an L that is too large for them.
        const Laplacian& laplacian = r.laplacian;
-       const std::vector<int> component =
-           laplacian.component.empty() ? componentLabels(laplacian) : laplacian.component;
-       writeNpy(to, "<i4", component.data(), component.size());
+       writeValues(to, "<i4", laplacian.component.empty() ? componentLabels(laplacian) : laplacian.component);
      }},
-    {std::nullopt, io::report_name, writeReport},
+    {std::nullopt, io::report_name,
+     [](Out to, In r) { io::writeText(to, io::reportJson(r.laplacian, r.geometry, r.options, r.conventions)); }},
 };
 
 std::vector<ResultFile> filesOf(const std::vector<Format>& formats) {
@@ -186,7 +163,7 @@ void checkWritable(const std::filesystem::path& dir, const std::vector<std::stri
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
                     const WriteOptions& options) {
   check(laplacian, geometry);
-  const Results results = {laplacian, geometry, options};
+  const Results results(laplacian, geometry, options);
   const std::vector<ResultFile> wanted = filesOf(options.formats);
   io::StagedFiles files(dir);
   io::stageFileRow(files, geometry);

@@ -11,7 +11,6 @@
 #include "view/ticks.h"
 
 namespace tufted::view {
-
 namespace {
 
 /// About how many isolines the range of values has.

@@ -9,12 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "view/path_line.h"
+#include "view/marks.h"
 #include "view/shown_values.h"
 #include "view/ticks.h"
 
 namespace tufted::view {
-
 namespace {
 
 /// A picture of fewer pixels in width or height has no title or legend.

@@ -7,13 +7,11 @@
 
 #include "tufted/errors.h"
 #include "view/color_maps.h"
-#include "view/page_block.h"
-#include "view/page_columns.h"
-#include "view/path_line.h"
+#include "view/marks.h"
+#include "view/page_parts.h"
 #include "view/projection.h"
 #include "view/shown_values.h"
 #include "view/spacing.h"
-#include "view/thinning.h"
 #include "view/viewer.h"
 
 namespace tufted {
@@ -50,39 +48,14 @@ void checkOptions(const Scene& scene, const PageOptions& options) {
 }
 
 const char* nameOf(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::scalar:
-      return "scalar";
-    case FieldKind::positive:
-      return "positive";
-    case FieldKind::diverging:
-      return "diverging";
-    case FieldKind::distance:
-      return "distance";
-    case FieldKind::label:
-      return "label";
-    case FieldKind::vector:
-      return "vector";
-    case FieldKind::coordinates:
-      return "coordinates";
-    case FieldKind::color:
-      return "color";
-    case FieldKind::direction:
-      return "direction";
-  }
-  return "scalar";
+  constexpr const char* names[] = {"scalar", "positive",    "diverging", "distance", "label",
+                                   "vector", "coordinates", "color",     "direction"};
+  return names[static_cast<int>(kind)];
 }
 
 const char* nameOf(MapUse use) {
-  switch (use) {
-    case MapUse::sequential:
-      return "sequential";
-    case MapUse::diverging:
-      return "diverging";
-    case MapUse::categorical:
-      return "categorical";
-  }
-  return "sequential";
+  constexpr const char* names[] = {"sequential", "diverging", "categorical"};
+  return names[static_cast<int>(use)];
 }
 
 Json levelColumn(const Eigen::Ref<const Eigen::VectorXd>& values, PageBlocks& blocks) {

@@ -3,10 +3,9 @@
 #include <string>
 
 #include "tufted/errors.h"
-#include "view/arrows.h"
 #include "view/field_colors.h"
 #include "view/legend.h"
-#include "view/path_line.h"
+#include "view/marks.h"
 #include "view/projection.h"
 #include "view/samples.h"
 #include "view/shading.h"

@@ -8,11 +8,10 @@
 #include <string>
 
 #include "tufted/errors.h"
-#include "view/percentile.h"
+#include "view/shown_values.h"
 #include "view/threads.h"
 
 namespace tufted::view {
-
 namespace {
 
 using Eigen::Vector3d;

@@ -10,7 +10,6 @@
 #include "view/threads.h"
 
 namespace tufted::view {
-
 namespace {
 
 using Eigen::Vector3d;

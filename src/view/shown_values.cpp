@@ -4,10 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "view/percentile.h"
-
 namespace tufted::view {
-
 namespace {
 
 /// Values within this many interquartile ranges of the quartiles are no outliers (the outer fences of Tukey 1977,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "tufted/view/scene.h"
@@ -35,5 +37,14 @@ struct ValueRanges {
 /// Finds these ranges. Those of lengths begin at 0; those of diverging values are symmetric about 0.
 /// @param values as from shownValues()
 ValueRanges rangesOf(FieldKind kind, const Eigen::Ref<const Eigen::VectorXd>& values);
+
+/// The value below which a share of all values lies, rounded to one of them.
+/// @param values at least one; they are reordered
+/// @param share in [0, 1]
+inline double percentile(std::vector<double>& values, double share) {
+  const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
 
 }  // namespace tufted::view

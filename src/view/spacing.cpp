@@ -8,10 +8,11 @@
 #include <limits>
 #include <utility>
 
+#include "view/projection.h"
+#include "view/shown_values.h"
 #include "view/threads.h"
 
 namespace tufted::view {
-
 namespace {
 
 /// Neighbours are searched among this many points before and after in Morton order; more find few nearer ones.
@@ -200,10 +201,6 @@ std::vector<int> pointsOf(const std::vector<Placed>& placed) {
 
 }  // namespace
 
-std::vector<int> mortonOrder(const NormalizedPoints& points) {
-  return pointsOf(alongCurve(points, 0));
-}
-
 Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads) {
   const auto n = static_cast<std::size_t>(points.positions.rows());
   Discs discs = {.radii = std::vector<float>(n, std::numeric_limits<float>::infinity()),
@@ -226,6 +223,33 @@ Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads) {
   smoothNormals(orders[0], threads, discs);
   limitRadii(scene, points, discs);
   return discs;
+}
+
+std::vector<int> thinned(const Scene& scene, Eigen::Index most) {
+  if (most <= 0 || scene.positions.rows() <= most || scene.triangles.rows() > 0) return {};
+  const std::vector<int> order = pointsOf(alongCurve(normalize(scene, 0), 0));
+  const Eigen::Index count = std::ssize(order);
+  if (count <= most) return {};
+  std::vector<int> rows;
+  for (Eigen::Index k = 0; k < most; ++k) rows.push_back(order[static_cast<std::size_t>(k * count / most)]);
+  for (const SceneField& field : scene.fields) {
+    const std::vector<int> sources = sourcesOf(field.kind, shownValues(field, 0));
+    rows.insert(rows.end(), sources.begin(), sources.end());
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+Scene sceneOfRows(const Scene& scene, const std::vector<int>& rows) {
+  Scene part = {.title = scene.title, .positions = scene.positions(rows, Eigen::all)};
+  if (scene.normals.rows() > 0) part.normals = scene.normals(rows, Eigen::all);
+  for (const SceneField& field : scene.fields)
+    part.fields.push_back({field.name, field.kind, field.values(rows, Eigen::all), field.unit, field.label_names,
+                           field.no_value, field.column_names});
+  part.unit = scene.unit;
+  part.path = scene.path;
+  return part;
 }
 
 }  // namespace tufted::view

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "tufted/view/scene.h"
 #include "view/projection.h"
 
 namespace tufted::view {
@@ -20,9 +21,14 @@ struct Discs {
   std::vector<int> order;
 };
 
-/// The finite points in Morton order.
-std::vector<int> mortonOrder(const NormalizedPoints& points);
-
 Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads);
+
+/// Chooses `most` finite points of a larger cloud evenly along the Morton curve, so that dense and sparse parts are
+/// thinned alike, and all sources of distances.
+/// @return ascending indices; empty if all points are kept: of meshes, of at most `most` points, or if `most` is 0
+std::vector<int> thinned(const Scene& scene, Eigen::Index most);
+
+/// The scene of some points of a cloud.
+Scene sceneOfRows(const Scene& scene, const std::vector<int>& rows);
 
 }  // namespace tufted::view

@@ -11,7 +11,6 @@
 #include "view/font_data.h"
 
 namespace tufted::view {
-
 namespace {
 
 /// The characters of a UTF-8 text.

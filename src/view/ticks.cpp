@@ -5,7 +5,6 @@
 #include <cstdio>
 
 namespace tufted::view {
-
 namespace {
 
 /// About how many marks a scale has.

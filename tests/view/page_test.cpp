@@ -11,9 +11,8 @@
 #include <sstream>
 
 #include "tufted/errors.h"
-#include "view/page_block.h"
-#include "view/page_columns.h"
-#include "view/thinning.h"
+#include "view/page_parts.h"
+#include "view/spacing.h"
 
 namespace tufted::page_test {
 namespace {

@@ -1,6 +1,4 @@
 // Paths in pictures and pages.
-#include "view/path_line.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "tufted/view/page.h"
 #include "tufted/view/picture.h"
+#include "view/marks.h"
 
 namespace tufted::path_line_test {
 namespace {

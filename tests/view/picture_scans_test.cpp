@@ -8,7 +8,7 @@
 
 #include "tufted/view/picture.h"
 #include "view/color_maps.h"
-#include "view/path_line.h"
+#include "view/marks.h"
 
 namespace tufted::picture_scans_test {
 namespace {

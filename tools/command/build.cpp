@@ -48,9 +48,8 @@ std::string presetName(tufted::Preset preset) {
 }
 
 void addBuildOptions(CLI::App& command, Build& build) {
-  build.neighbors = addNumber(command, "--neighbors", build.cloud.neighbors, 3, std::numeric_limits<int>::max(),
-                              "Number of neighbours per point, clouds only (30)")
-                        ->type_name("K");
+  build.neighbors = addNumber(command, "--neighbors K", build.cloud.neighbors, 3, std::numeric_limits<int>::max(),
+                              "Number of neighbours per point, clouds only (30)");
   build.cloud_only.insert(
       build.cloud_only.end(),
       {build.neighbors,
@@ -68,13 +67,11 @@ void addBuildOptions(CLI::App& command, Build& build) {
            .add_option("--viewpoint", build.given_viewpoint,
                        "Position of the sensor, clouds only (VIEWPOINT of FILE, or the origin for an organized cloud)")
            ->type_name("X,Y,Z")});
-  addNumber(command, "--threads", build.cloud.threads, 1, 1 << 16, "Maximum number of threads (one per processor)")
-      ->type_name("N");
-  const CLI::Option* const mollify = addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
+  addNumber(command, "--threads N", build.cloud.threads, 1, 1 << 16, "Maximum number of threads (one per processor)");
+  const CLI::Option* const mollify = addNumber(command, "--mollify D", build.mollify, 0.0, 1.0,
                                                "Shortest allowed edge, as a fraction of the longest side of its "
                                                "smaller triangle; with 0 flat triangles stay (" +
-                                                   numberText(tufted::default_mollify) + ")")
-                                         ->type_name("D");
+                                                   numberText(tufted::default_mollify) + ")");
 
   tufted::PaperOptions& paper = build.cloud.paper;
   CLI::Option* const gluing =
@@ -87,9 +84,8 @@ void addBuildOptions(CLI::App& command, Build& build) {
       addChoice(command, "--order", paper.order, orders,
                 "Order of the faces around an edge: ascending dihedral angle or area, or random (angle)");
   CLI::Option* const seed =
-      addNumber(command, "--seed", paper.seed, std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(),
-                "Seed of the random order, only with --order random (0)")
-          ->type_name("S");
+      addNumber(command, "--seed S", paper.seed, std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(),
+                "Seed of the random order, only with --order random (0)");
   for (CLI::Option* const option : {gluing, delaunay, order, seed}) option->group("For comparison with the paper");
   build.seed = seed;
   build.cloud_only.insert(build.cloud_only.end(), {gluing, delaunay});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/App.hpp>
 #include <charconv>
 #include <cstddef>
 #include <map>
@@ -21,4 +22,18 @@ inline std::optional<std::size_t> parseBytes(const std::string& text) {
   if (error != std::errc() || unit == units.end()) return std::nullopt;
   const double bytes = number * unit->second;
   return bytes >= 1 && bytes < 0x1p63 ? std::optional(static_cast<std::size_t>(bytes)) : std::nullopt;
+}
+
+/// Adds an option that takes a size in bytes.
+/// @param set called with the size and with its text
+template <class Set>
+CLI::Option* addBytes(CLI::App& app, const std::string& name, const Set& set, const std::string& help) {
+  const auto check = [](const std::string& text) {
+    return parseBytes(text) ? std::string() : text + " is not a size such as 4G or 500M";
+  };
+  return app
+      .add_option_function<std::string>(
+          name, [set](const std::string& text) { set(parseBytes(text).value(), text); }, help)
+      ->check(check)
+      ->type_name("SIZE");
 }

@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstddef>
 #include <set>
 
+#include "options.h"
 #include "suggestion.h"
 
 namespace {
@@ -29,8 +29,7 @@ bool isOption(const std::string& word) {
 
 bool isNumber(const std::string& word) {
   double number = 0;
-  const char* const end = word.data() + word.size();
-  return std::from_chars(word.data(), end, number).ptr == end && !word.empty();
+  return parseNumber(word, number);
 }
 
 /// The option's name in `--name=value` or `-nvalue`.
@@ -103,14 +102,10 @@ std::string findMisusedOption(const CLI::App& command, const std::vector<std::st
 
 std::string explainCommand(const CLI::App& app, const std::string& name) {
   std::vector<std::string> known;
-  std::string all;
-  for (const CLI::App* command : commandsOf(app)) {
-    if (command->get_group().empty()) continue;  // hidden in the help
-    known.push_back(command->get_name());
-    all += (all.empty() ? "" : ", ") + command->get_name();
-  }
-  known.emplace_back("--help");
-  known.emplace_back("--version");
+  for (const CLI::App* command : commandsOf(app))
+    if (!command->get_group().empty()) known.push_back(command->get_name());  // else hidden in the help
+  const std::string all = joined(known);
+  known.insert(known.end(), {"--help", "--version"});
   const std::string meant = didYouMean(name, known);
   return "unknown command `" + name + "`" + (meant.empty() ? ", must be one of " + all : meant);
 }

@@ -48,16 +48,11 @@ std::vector<int> chosenOf(const ComponentOptions& options, const std::vector<std
 }  // namespace
 
 void addComponentOptions(CLI::App& command, ComponentOptions& options) {
-  CLI::Option* const chosen =
-      command
-          .add_option("--component", options.chosen,
-                      "Use only these connected components; component 0 has the most points (all)")
-          ->check(notEmpty)
-          ->type_name("largest|I,J,...");
-  addNumber(command, "--min-component", options.min_points, 1, std::numeric_limits<int>::max(),
+  CLI::Option* const chosen = addText(command, "--component largest|I,J,...", options.chosen,
+                                      "Use only these connected components; component 0 has the most points (all)");
+  addNumber(command, "--min-component N", options.min_points, 1, std::numeric_limits<int>::max(),
             "Use only connected components of at least N points (1)")
-      ->excludes(chosen)
-      ->type_name("N");
+      ->excludes(chosen);
 }
 
 void chooseComponents(const ComponentOptions& options, Operator& source, Results& results) {

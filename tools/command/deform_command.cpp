@@ -1,26 +1,13 @@
-#include <CLI/CLI.hpp>
-#include <limits>
-#include <map>
-#include <string>
-#include <vector>
-
-#include "command.h"
-#include "moved_points.h"
-#include "operator.h"
-#include "options.h"
-#include "oriented.h"
-#include "point_options.h"
-#include "taking_part.h"
+#include "subcommand.h"
 #include "tufted/deformation.h"
-#include "tufted/errors.h"
 
-namespace deform_command {
 namespace {
 
-constexpr const char* description = "Move some points to given positions and let the surface follow.";
+using tufted::DeformationMethod;
 
-constexpr const char* footer =
-    R"(Examples:
+struct Deform : Subcommand {
+  explicit Deform(CLI::App& app)
+      : Subcommand(app, "deform", "Move some points to given positions and let the surface follow.", R"(Examples:
   tufted deform mesh.off --handles handles.txt --out bent
   tufted deform scan.ply --handles handles.txt --method linear --out bent
 
@@ -33,103 +20,91 @@ Files in DIR, which replace older ones when all are complete:
   positions.npy  N x 3, float64; points of components without a handle stay, coincident points lie where their
                  representative does
   points.ply     the moved points, without normals; points.pcd with --format pcd
-  report.json    method, handles, moved points, iterations, whether they converged, stretch of edges, seconds
-`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --out DIR` wrote.)";
+  report.json    method, handles, moved points, iterations, whether they converged, stretch of edges, seconds)") {
+    addText(command, "--handles TEXT", handles_file,
+            "Text file of points that move to X Y Z or stay, lines INDEX X Y Z or INDEX")
+        ->required();
+    addChoice(command, "--method", options.method, methods,
+              "rigid: hardly stretches the surface; linear: two solves, for small rotations (rigid)");
+    addNumber(command, "--smoothness S", options.smoothness, 0.0, 1e6,
+              "With --method rigid: cost of bending, as a fraction of the area; 0: none (1e-3)");
+    addNumber(command, "--iterations N", options.max_iterations, 1, 1000000,
+              "With --method rigid: maximum number of iterations (500)");
+    addNumber(command, "--tolerance T", options.tolerance, std::numeric_limits<double>::min(), 1.0,
+              "With --method rigid: stop when no point moves more than T times the longest way of a handle (1e-3)");
+  }
 
-using tufted::DeformationMethod;
+  static inline const std::map<std::string, DeformationMethod> methods = {
+      {"rigid", DeformationMethod::as_rigid_as_possible}, {"linear", DeformationMethod::linear}};
 
-const std::map<std::string, DeformationMethod> methods = {{"rigid", DeformationMethod::as_rigid_as_possible},
-                                                          {"linear", DeformationMethod::linear}};
+  void check(const Operator& source) override {
+    shown = {{moved_points_field}};
+    checkPositions(source);
+    checkHasPoints(source);
+    const std::vector<Row> rows = readRows(handles_file);
+    if (rows.empty()) throw tufted::IoError(handles_file.string() + ": names no point, must name one");
+    targets.resize(std::ssize(rows), 3);
+    for (Eigen::Index k = 0; k < std::ssize(rows); ++k) {
+      const Row& row = rows[static_cast<std::size_t>(k)];
+      if (row.numbers.size() != 1 && row.numbers.size() != 4)
+        throw tufted::IoError(row.name + ": is not INDEX or INDEX X Y Z");
+      const int point = indexOf({row.name, {row.numbers[0]}}, source);
+      handles.push_back(point);
+      if (row.numbers.size() == 4) {
+        targets.row(k) << row.numbers[1], row.numbers[2], row.numbers[3];
+      } else {
+        staying.push_back(k);
+        targets.row(k) = source.geometry.points.row(point);
+      }
+      if (!targets.row(k).allFinite()) throw tufted::IoError(row.name + ": the place is not finite, must be");
+    }
+  }
 
-struct Settings {
-  OperatorSettings source;
+  Results compute(Operator& source) override {
+    Results results;
+    noteLeftOut(handles, source, results);
+    options.solver = source.solverOptions();
+    // All points start from Laplacian::positions, which for noisy points are not those of the file.
+    for (const Eigen::Index k : staying)
+      targets.row(k) = source.laplacian.positions.row(handles[static_cast<std::size_t>(k)]);
+    tufted::DeformationReport made;
+    const tufted::Points moved = forOption("--handles " + handles_file.string(), [&] {
+      return tufted::deform(source.laplacian, handles, targets, options, &made);
+    });
+    const bool is_linear = options.method == DeformationMethod::linear;
+    results.report["report"] = {{"method", is_linear ? "linear" : "rigid"},
+                                {"handles", made.handles},
+                                {"moved", made.moved},
+                                {"floating", made.floating},
+                                {"longest_way", made.longest_way},
+                                {"iterations", made.iterations},
+                                {"last_move", made.last_move},
+                                {"converged", made.converged},
+                                {"stretch", made.stretch},
+                                {"seconds", made.seconds}};
+    results.summary.add("handles", "%lld, the longest way %.6g", static_cast<long long>(made.handles),
+                        made.longest_way);
+    results.summary.add("iterations", "%d, edges stretch by %.3g of their length", made.iterations, made.stretch);
+    if (made.floating > 0)
+      results.warnings.push_back(std::to_string(made.floating) +
+                                 " points lie on components without a handle; they stay");
+    if (!made.converged)
+      results.warnings.push_back("points still move by " + numberText(made.last_move) + "; --iterations was too small");
+    movePoints("positions", moved, source, results);
+    return results;
+  }
+
   std::filesystem::path handles_file;
   tufted::DeformationOptions options;
   std::vector<int> handles;
   tufted::Points targets;
   std::vector<Eigen::Index> staying;  ///< which handles have no target and stay in place
 
-  std::vector<std::string> files() const { return {"positions.npy"}; }
+  std::vector<std::string> files() const override { return {"positions.npy"}; }
 };
 
-void check(Settings& settings, const Operator& source) {
-  settings.source.shown = {{moved_points_field}};
-  checkPositions(source);
-  checkHasPoints(source);
-  const std::vector<Row> rows = readRows(settings.handles_file);
-  if (rows.empty()) throw tufted::IoError(settings.handles_file.string() + ": names no point, must name one");
-  settings.targets.resize(std::ssize(rows), 3);
-  for (Eigen::Index k = 0; k < std::ssize(rows); ++k) {
-    const Row& row = rows[static_cast<std::size_t>(k)];
-    if (row.numbers.size() != 1 && row.numbers.size() != 4)
-      throw tufted::IoError(row.name + ": is not INDEX or INDEX X Y Z");
-    const int point = indexOf({row.name, {row.numbers[0]}}, source);
-    settings.handles.push_back(point);
-    if (row.numbers.size() == 4) {
-      settings.targets.row(k) << row.numbers[1], row.numbers[2], row.numbers[3];
-    } else {
-      settings.staying.push_back(k);
-      settings.targets.row(k) = source.geometry.points.row(point);
-    }
-    if (!settings.targets.row(k).allFinite()) throw tufted::IoError(row.name + ": the place is not finite, must be");
-  }
-}
-
-Results compute(Settings& settings, Operator& source) {
-  Results results;
-  noteLeftOut(settings.handles, source, results);
-  settings.options.solver = source.solverOptions();
-  // All points start from Laplacian::positions, which for noisy points are not those of the file.
-  for (const Eigen::Index k : settings.staying)
-    settings.targets.row(k) = source.laplacian.positions.row(settings.handles[static_cast<std::size_t>(k)]);
-  tufted::DeformationReport made;
-  const tufted::Points moved = forOption("--handles " + settings.handles_file.string(), [&] {
-    return tufted::deform(source.laplacian, settings.handles, settings.targets, settings.options, &made);
-  });
-  const bool is_linear = settings.options.method == DeformationMethod::linear;
-  results.report["report"] = {{"method", is_linear ? "linear" : "rigid"},
-                              {"handles", made.handles},
-                              {"moved", made.moved},
-                              {"floating", made.floating},
-                              {"longest_way", made.longest_way},
-                              {"iterations", made.iterations},
-                              {"last_move", made.last_move},
-                              {"converged", made.converged},
-                              {"stretch", made.stretch},
-                              {"seconds", made.seconds}};
-  results.summary.add("handles", "%lld, the longest way %.6g", static_cast<long long>(made.handles), made.longest_way);
-  results.summary.add("iterations", "%d, edges stretch by %.3g of their length", made.iterations, made.stretch);
-  if (made.floating > 0)
-    results.warnings.push_back(std::to_string(made.floating) + " points lie on components without a handle; they stay");
-  if (!made.converged)
-    results.warnings.push_back("points still move by " + numberText(made.last_move) + "; --iterations was too small");
-  movePoints("positions", moved, source, results);
-  return results;
-}
-
 }  // namespace
-}  // namespace deform_command
 
 void addDeform(CLI::App& app, Run& run) {
-  using namespace deform_command;
-  const auto [command, settings] =
-      addOperatorCommand<Settings>(app, run, "deform", description, footer, compute, check);
-  command
-      ->add_option("--handles", settings->handles_file,
-                   "Text file of points that move to X Y Z or stay, lines INDEX X Y Z or INDEX")
-      ->check(notEmpty)
-      ->required()
-      ->type_name("TEXT");
-  addChoice(*command, "--method", settings->options.method, methods,
-            "rigid: hardly stretches the surface; linear: two solves, for small rotations (rigid)");
-  addNumber(*command, "--smoothness", settings->options.smoothness, 0.0, 1e6,
-            "With --method rigid: cost of bending, as a fraction of the area; 0: none (1e-3)")
-      ->type_name("S");
-  addNumber(*command, "--iterations", settings->options.max_iterations, 1, 1000000,
-            "With --method rigid: maximum number of iterations (500)")
-      ->type_name("N");
-  addNumber(*command, "--tolerance", settings->options.tolerance, std::numeric_limits<double>::min(), 1.0,
-            "With --method rigid: stop when no point moves more than T times the longest way of a handle (1e-3)")
-      ->type_name("T");
+  addSubcommand<Deform>(app, run);
 }

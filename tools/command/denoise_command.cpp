@@ -10,7 +10,6 @@
 #include "look.h"
 #include "options.h"
 #include "output.h"
-#include "peak_memory.h"
 #include "progress_bar.h"
 #include "scene_fields.h"
 #include "structure.h"
@@ -97,8 +96,7 @@ int runDenoise(Settings& settings) {
       {.name = "positions", .values = denoised.positions, .per_point = false},
       {.name = "noise", .values = denoised.noise}};
   tufted::ResultOptions options = {.copies = settings.copies, .progress = progress};
-  // Paths need not be UTF-8.
-  options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  options.report = textOf(json);
   const tufted::Laplacian none;
   const std::string title = "denoise: " + std::filesystem::path(settings.input.name()).filename().string();
   writeAndShow(
@@ -120,11 +118,9 @@ int runDenoise(Settings& settings) {
                 scan ? ", by the pixels of a depth image" : "");
   }
   if (!doubt.empty()) summary.add("rays", "%s", doubt.c_str());
-  summary.add("took", "%.3g s, peak memory %.0f MB", done.seconds, peakMemory());
-  summary.add("written to", "%s", settings.out.c_str());
+  addEnd(done.seconds, settings.out, summary);
   addLook(settings.look, summary);
-  std::vector<std::string> warnings = warningsOf(settings.input.name(), geometry);
-  for (const std::string& line : tufted::warnings(done)) warnings.push_back(settings.input.name() + ": " + line);
+  const std::vector<std::string> warnings = warningsOf(settings.input.name(), geometry, tufted::warnings(done));
   for (const std::string& line : warnings) warn(bar, line);
   sayResults(settings.console, summary, settings.out, warnings);
   return exit_done;
@@ -144,8 +140,7 @@ void addDenoise(CLI::App& app, Run& run) {
   addChoice(
       command, "--structure", settings->structure, image_structures,
       "Treat the cloud as a depth image, or not (automatic: if a pinhole camera saw it from the VIEWPOINT of FILE)");
-  addNumber(command, "--threads", settings->threads, 1, 1 << 16, "Maximum number of threads (one per processor)")
-      ->type_name("N");
+  addNumber(command, "--threads N", settings->threads, 1, 1 << 16, "Maximum number of threads (one per processor)");
   addLookOptions(command, settings->look);
   addConsole(command, settings->console);
   command.callback([&run, &command, settings] {

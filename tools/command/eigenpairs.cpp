@@ -33,13 +33,10 @@ CLI::Option* addCount(CLI::App& command, Eigenpairs& pairs, const std::string& o
 }
 
 void addSpectrumFolder(CLI::App& command, Eigenpairs& pairs) {
-  command
-      .add_option("--spectrum", pairs.folder,
-                  "Use eigenvectors that `tufted spectrum --out DIR` wrote for the same L and M (all in DIR)")
-      ->check(notEmpty)
+  addText(command, "--spectrum DIR", pairs.folder,
+          "Use eigenvectors that `tufted spectrum --out DIR` wrote for the same L and M (all in DIR)")
       ->excludes(command.get_option("--solver"))
-      ->excludes(command.get_option("--memory-limit"))
-      ->type_name("DIR");
+      ->excludes(command.get_option("--memory-limit"));
 }
 
 void checkPairs(const Eigenpairs& pairs, const Operator& source) {

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -198,7 +197,8 @@ int runInfo(Settings settings) {
   settings.cloud.progress = showOn(bar);
   const bool prints = !settings.console.quiet && !settings.console.json;
   const std::optional<tufted::FileHead> head = readInputHead(settings.input);
-  if (head && prints) printInfoHead(describeFile(settings, *head));
+  // At once, because reading a large file takes a while.
+  if (head && prints) print(infoHead(describeFile(settings, *head)).text(false));
   settings.cloud.progress("read", 0);
   tufted::FileHead file;
   file.geometry = readInput(settings.input, settings.cloud.progress);
@@ -218,10 +218,9 @@ int runInfo(Settings settings) {
   if (!nothing.empty()) warnings.push_back(settings.input.name() + ": " + nothing);
   for (const std::string& warning : warnings) warn(bar, warning);
   info["warnings"] = warnings;
-  if (prints && !head) printInfoHead(info);
-  if (prints) printInfo(info);
-  if (settings.console.json) std::printf("%s\n", info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-  if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot be written");
+  if (prints && !head) print(infoHead(info).text(false));
+  if (prints) print(infoBody(info).text(false));
+  if (settings.console.json) print(textOf(info));
   return exit_done;
 }
 
@@ -236,11 +235,10 @@ void addInfo(CLI::App& app, Run& run) {
   addInput(command, settings->input);
   addWeld(command, settings->input);
   command.add_flag("--full", settings->full, "Look at all points, not at a sample of 100,000 of a larger file");
-  settings->neighbors = addNumber(command, "--neighbors", settings->cloud.neighbors, 3, std::numeric_limits<int>::max(),
-                                  "Number of neighbours per point, clouds only (30)")
-                            ->type_name("K");
-  addNumber(command, "--threads", settings->cloud.threads, 1, 1 << 16, "Maximum number of threads (one per processor)")
-      ->type_name("N");
+  settings->neighbors = addNumber(command, "--neighbors K", settings->cloud.neighbors, 3,
+                                  std::numeric_limits<int>::max(), "Number of neighbours per point, clouds only (30)");
+  addNumber(command, "--threads N", settings->cloud.threads, 1, 1 << 16,
+            "Maximum number of threads (one per processor)");
   addConsole(command, settings->console);
   command.callback([&run, settings] { run = [=] { return runInfo(*settings); }; });
 }

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <utility>
 
 #include "structure.h"
+#include "suggestion.h"
 #include "tufted/io/read.h"
 
 namespace {
@@ -14,27 +14,16 @@ using Json = nlohmann::ordered_json;
 
 constexpr double coarse_step = 0.1;  ///< float steps above this many spacings move points visibly
 
-void printTriple(const char* name, const Json& values) {
-  std::printf("%-15s %.10g %.10g %.10g\n", name, values[0].get<double>(), values[1].get<double>(),
-              values[2].get<double>());
-}
-
-void printFields(const Json& info) {
-  std::string names = info["normals"] ? "normals" : "";
-  for (const Json& field : info["fields"]) {
-    const int count = field["count"].get<int>();
-    names += (names.empty() ? "" : ", ") + field["name"].get<std::string>() + " " + field["type"].get<std::string>() +
-             (count > 1 ? " x " + std::to_string(count) : "");
-  }
-  if (!names.empty()) std::printf("%-15s %s\n", "fields", names.c_str());
-}
-
 long long integer(const Json& info, const char* member) {
   return static_cast<long long>(info[member].get<std::int64_t>());
 }
 
 double real(const Json& info, const char* member) {
   return info[member].get<double>();
+}
+
+void addTriple(const char* name, const Json& values, Summary& lines) {
+  lines.add(name, "%.10g %.10g %.10g", values[0].get<double>(), values[1].get<double>(), values[2].get<double>());
 }
 
 }  // namespace
@@ -74,55 +63,62 @@ std::vector<std::string> findOddities(const nlohmann::ordered_json& info, bool j
   return odd;
 }
 
-void printInfoHead(const Json& info) {
-  std::printf("%-15s %s (%s)\n", "file", info["file"].get<std::string>().c_str(),
-              info["kind"].get<std::string>().c_str());
-  std::printf("%-15s %s\n", "format", info["format"].get<std::string>().c_str());
-  std::printf("%-15s %lld", "points", integer(info, "points"));
-  if (info["organized"]) std::printf(", organized %lld x %lld", integer(info, "width"), integer(info, "height"));
-  if (info["kind"] == "mesh") std::printf("; %lld faces", integer(info, "triangles"));
-  std::printf("\n");
-  printFields(info);
-  if (info.contains("reference_system"))
-    std::printf("%-15s %s\n", "crs", info["reference_system"].get<std::string>().c_str());
+Summary infoHead(const Json& info) {
+  const auto text = [](const Json& member) { return member.get<std::string>(); };
+  Summary lines;
+  lines.add("file", "%s (%s)", text(info["file"]).c_str(), text(info["kind"]).c_str());
+  lines.add("format", "%s", text(info["format"]).c_str());
+  std::string points = std::to_string(integer(info, "points"));
+  if (info["organized"])
+    points += ", organized " + std::to_string(integer(info, "width")) + " x " + std::to_string(integer(info, "height"));
+  if (info["kind"] == "mesh") points += "; " + std::to_string(integer(info, "triangles")) + " faces";
+  lines.add("points", "%s", points.c_str());
+  std::vector<std::string> fields;
+  if (info["normals"]) fields.emplace_back("normals");
+  for (const Json& field : info["fields"]) {
+    const int count = field["count"].get<int>();
+    fields.push_back(text(field["name"]) + " " + text(field["type"]) +
+                     (count > 1 ? " x " + std::to_string(count) : ""));
+  }
+  if (!fields.empty()) lines.add("fields", "%s", joined(fields).c_str());
+  if (info.contains("reference_system")) lines.add("crs", "%s", text(info["reference_system"]).c_str());
   if (info["viewpoint"] != Json(tufted::Geometry().viewpoint))
-    std::printf("%-15s %s\n", "viewpoint", info["viewpoint"].dump().c_str());
-  std::fflush(stdout);
+    lines.add("viewpoint", "%s", info["viewpoint"].dump().c_str());
+  return lines;
 }
 
-void printInfo(const Json& info) {
+Summary infoBody(const Json& info) {
+  Summary lines;
   const bool is_mesh = info["kind"] == "mesh";
   if (is_mesh)
-    std::printf("%-15s %lld, %lld polygons triangulated\n", "triangles", integer(info, "triangles"),
-                integer(info, "polygons"));
-  if (integer(info, "merged_vertices") > 0)
-    std::printf("%-15s %lld equal corners\n", "merged", integer(info, "merged_vertices"));
+    lines.add("triangles", "%lld, %lld polygons triangulated", integer(info, "triangles"), integer(info, "polygons"));
+  if (integer(info, "merged_vertices") > 0) lines.add("merged", "%lld equal corners", integer(info, "merged_vertices"));
   if (info.contains("selection"))
-    std::printf("%-15s %lld of %lld points, which the rest describes\n", "chosen", integer(info["selection"], "kept"),
-                integer(info["selection"], "points"));
+    lines.add("chosen", "%lld of %lld points, which the rest describes", integer(info["selection"], "kept"),
+              integer(info["selection"], "points"));
   if (info.contains("classes"))
     for (const Json& each : info["classes"])
-      std::printf("%-15s %lld %s, %lld points\n", "class", integer(each, "number"),
-                  each["name"].get<std::string>().c_str(), integer(each, "points"));
-  printTriple("lowest", info["lowest"]);
-  printTriple("highest", info["highest"]);
+      lines.add("class", "%lld %s, %lld points", integer(each, "number"), each["name"].get<std::string>().c_str(),
+                integer(each, "points"));
+  addTriple("lowest", info["lowest"], lines);
+  addTriple("highest", info["highest"], lines);
   if (integer(info, "sampled") < integer(info, "points"))
-    std::printf("%-15s %lld points; --full looks at all\n", "sample", integer(info, "sampled"));
-  std::printf("%-15s %.4g (%.4g to %.4g)\n", "spacing", real(info, "spacing"), real(info, "spacing_low"),
-              real(info, "spacing_high"));
-  std::printf("%-15s %.4g\n", "float step", real(info, "float_step"));
+    lines.add("sample", "%lld points; --full looks at all", integer(info, "sampled"));
+  lines.add("spacing", "%.4g (%.4g to %.4g)", real(info, "spacing"), real(info, "spacing_low"),
+            real(info, "spacing_high"));
+  lines.add("float step", "%.4g", real(info, "float_step"));
   if (is_mesh) {
-    std::printf("%-15s %.4g\n", "mean edge", real(info, "mean_edge"));
-    std::printf("%-15s %lld boundary, %lld nonmanifold\n", "edges", integer(info, "boundary_edges"),
-                integer(info, "nonmanifold_edges"));
+    lines.add("mean edge", "%.4g", real(info, "mean_edge"));
+    lines.add("edges", "%lld boundary, %lld nonmanifold", integer(info, "boundary_edges"),
+              integer(info, "nonmanifold_edges"));
   }
   if (info.value("neighbors_clamped", false))
-    std::printf("%-15s %lld, all other points\n", "neighbors", integer(info, "neighbors"));
+    lines.add("neighbors", "%lld, all other points", integer(info, "neighbors"));
   for (const auto& [member, name] : {std::pair("components", "components"), std::pair("graph_parts", "graph parts")})
-    if (info.contains(member)) std::printf("%-15s %lld\n", name, integer(info, member));
+    if (info.contains(member)) lines.add(name, "%lld", integer(info, member));
   if (info.value("structure", "") == nameOf(Structure::image))
-    std::printf("%-15s %s\n", "structure", "depth image, built by its pixels");
-  for (const Json& sentence : info["odd"]) std::printf("%-15s %s\n", "odd", sentence.get<std::string>().c_str());
-  std::printf("%-15s %.2g s, %.0f MB\n", "to expect", real(info, "expected_seconds"),
-              real(info, "expected_bytes") / 1e6);
+    lines.add("structure", "depth image, built by its pixels");
+  for (const Json& sentence : info["odd"]) lines.add("odd", "%s", sentence.get<std::string>().c_str());
+  lines.add("to expect", "%.2g s, %.0f MB", real(info, "expected_seconds"), real(info, "expected_bytes") / 1e6);
+  return lines;
 }

@@ -23,17 +23,13 @@ void addSelection(CLI::App& command, ChosenPoints& chosen) {
                   "'return_number=number_of_returns'; may be repeated, all must hold; clouds only")
       ->allow_extra_args(false)  // the next word may be FILE
       ->type_name("CONDITION");
-  command.add_option("--crop", chosen.crop, "Keep points in this box, sides included; clouds only")
-      ->check(notEmpty)
-      ->type_name("X0,Y0,Z0,X1,Y1,Z1");
-  command
-      .add_option("--polygon", chosen.polygon,
-                  "Keep points in a polygon in x and y: text file of its corners, lines X Y; clouds only")
-      ->check(notEmpty)
-      ->type_name("TEXT");  // by which inputsOf() finds it
-  addNumber(command, "--thin", chosen.selection.thin, 1e-150, 1e150,
-            "Then keep points of which no two are closer than this, in the unit of FILE; clouds only")
-      ->type_name("SPACING");
+  addText(command, "--crop X0,Y0,Z0,X1,Y1,Z1", chosen.crop, "Keep points in this box, sides included; clouds only");
+  addText(
+      command, "--polygon TEXT", chosen.polygon,
+      "Keep points in a polygon in x and y: text file of its corners, lines X Y; clouds only");  // by which inputsOf()
+                                                                                                 // finds it
+  addNumber(command, "--thin SPACING", chosen.selection.thin, 1e-150, 1e150,
+            "Then keep points of which no two are closer than this, in the unit of FILE; clouds only");
 }
 
 namespace {

@@ -18,7 +18,6 @@
 #include "look.h"
 #include "options.h"
 #include "output.h"
-#include "peak_memory.h"
 #include "progress_bar.h"
 #include "scene_fields.h"
 #include "summary.h"
@@ -190,8 +189,7 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
       static_cast<double>(report.nonzeros) / static_cast<double>(std::max<std::int64_t>(report.active, 1)));
   summary.addDetail("flips", "%lld", count(report.flips));
   summary.addDetail("clamped", "%lld weights", count(report.clamped_weights + report.clamped_large));
-  summary.add("took", "%.3g s, peak memory %.0f MB", seconds, peakMemory());
-  summary.add("written to", "%s", settings.out.c_str());
+  addEnd(seconds, settings.out, summary);
   addLook(settings.look, summary);
   return summary;
 }
@@ -235,8 +233,8 @@ int runLaplacian(Settings& settings) {
       settings.look, geometry, [&] { return sceneOf(title, geometry, laplacian, {}); },
       [&] { tufted::writeLaplacian(settings.out, laplacian, geometry, write); });
   bar.clear();
-  std::vector<std::string> warnings = warningsOf(settings.input.name(), geometry);
-  for (const std::string& line : warningsOf(settings.input.name(), laplacian.report)) warnings.push_back(line);
+  const std::vector<std::string> warnings =
+      warningsOf(settings.input.name(), geometry, tufted::warnings(laplacian.report));
   for (const std::string& warning : warnings) warn(bar, warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   sayResults(settings.console, summarize(settings, geometry, laplacian, seconds.count()), settings.out, warnings);

@@ -1,25 +1,12 @@
-#include <CLI/CLI.hpp>
-#include <map>
-#include <string>
-#include <vector>
-
-#include "command.h"
-#include "operator.h"
-#include "options.h"
-#include "oriented.h"
-#include "point_options.h"
-#include "reports.h"
-#include "taking_part.h"
-#include "tufted/errors.h"
+#include "subcommand.h"
 #include "tufted/vector_heat.h"
 
-namespace logmap_command {
 namespace {
 
-constexpr const char* description = "Compute the logarithmic map: distance and direction of every point from a source.";
-
-constexpr const char* footer =
-    R"(Example:
+struct Logmap : Subcommand {
+  explicit Logmap(CLI::App& app)
+      : Subcommand(app, "logmap", "Compute the logarithmic map: distance and direction of every point from a source.",
+                   R"(Example:
   tufted logmap scan.ply --source 0 --out logmap
 
 The two coordinates of a point are its geodesic distance from the source, in the direction in which its shortest path
@@ -33,16 +20,59 @@ tangent. The second axis is perpendicular to the first, counterclockwise seen fr
 Files in DIR, which replace older ones when all are complete:
   logmap.npy   N x 2, float64, in the unit of FILE; 0, 0 at the source, NaN where no path leads
   points.ply   the points with the fields logmap_0 and logmap_1, float32; points.pcd with --format pcd
-  report.json  source, axes, method, seconds; with --method heat also rounds, residual, backward error
-`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --format npz,ply,cover --out DIR` wrote: distances
-need the triangles of the cover.)";
+  report.json  source, axes, method, seconds; with --method heat also rounds, residual, backward error)",
+                   R"(--format npz,ply,cover --out DIR` wrote: distances
+need the triangles of the cover.)") {
+    cover = CoverUse::all;
+    addOrienting(command, orienting);
+    addPointOptions(command, points, "Source, the centre of the map");
+    command.add_option("--axis", axis_text, "Direction of the first coordinate axis at the source (any tangent)")
+        ->type_name("X,Y,Z");
+    addChoice(command, "--method", options.method, methods,
+              "exact: shortest paths; heat: less accurate, for millions of points (exact)");
+  }
 
-const std::map<std::string, tufted::LogMapMethod> methods = {{"exact", tufted::LogMapMethod::exact},
-                                                             {"heat", tufted::LogMapMethod::heat}};
+  static inline const std::map<std::string, tufted::LogMapMethod> methods = {{"exact", tufted::LogMapMethod::exact},
+                                                                             {"heat", tufted::LogMapMethod::heat}};
 
-struct Settings {
-  OperatorSettings source;
+  void check(const Operator& source) override {
+    checkFrames(source);
+    if (options.method == tufted::LogMapMethod::exact) stages = {{"paths", 100}};
+    places = points.places(source);
+    if (places.size() != 1)
+      throw tufted::InvalidInput(std::to_string(places.size()) +
+                                 " sources are given, must be one by --source or --near");
+    if (axis_text.empty()) return;
+    axis = parsePosition(axis_text, "--axis");
+    if (axis.isZero(0)) throw tufted::InvalidInput("--axis " + axis_text + " has no direction");
+  }
+
+  Results compute(Operator& source) override {
+    Results results;
+    const int point = locate(places, source, results).front();
+    requireTakingPart({point}, source);
+    options.solver = source.solverOptions();
+    const tufted::LogMapSolver solver(source.laplacian, orientedFrames(orienting, source, results), options);
+    const tufted::LogMap map = solver.query(point, axis, source.progress);
+    const auto direction = [](const Eigen::RowVector3d& v) { return std::vector<double>{v[0], v[1], v[2]}; };
+    results.report["source_point"] = point;
+    results.report["axes"] = {direction(map.first), direction(map.second)};
+    results.summary.add("first axis", "%.6g, %.6g, %.6g", map.first[0], map.first[1], map.first[2]);
+    results.summary.add("second axis", "%.6g, %.6g, %.6g", map.second[0], map.second[1], map.second[2]);
+    const bool is_heat = options.method == tufted::LogMapMethod::heat;
+    results.report["method"] = is_heat ? "heat" : "exact";
+    if (is_heat) {
+      addReport(map.report, solver.report(), results);
+    } else {
+      results.report["report"] = {{"seconds", map.report.seconds}};
+      results.summary.addDetail("query", "shortest paths over the triangles, %.3g s", map.report.seconds);
+    }
+    results.summary.add("not reached", "%lld points, which are NaN",
+                        static_cast<long long>(map.coordinates.col(0).array().isNaN().count()));
+    results.arrays = {{.name = "logmap", .values = map.coordinates}};
+    return results;
+  }
+
   Orienting orienting;
   NamedPoints points;
   std::string axis_text;
@@ -50,61 +80,11 @@ struct Settings {
   std::vector<Place> places;
   Eigen::RowVector3d axis = Eigen::RowVector3d::Zero();
 
-  std::vector<std::string> files() const { return {"logmap.npy"}; }
+  std::vector<std::string> files() const override { return {"logmap.npy"}; }
 };
 
-void check(Settings& settings, const Operator& source) {
-  checkFrames(source);
-  if (settings.options.method == tufted::LogMapMethod::exact) settings.source.stages = {{"paths", 100}};
-  settings.places = settings.points.places(source);
-  if (settings.places.size() != 1)
-    throw tufted::InvalidInput(std::to_string(settings.places.size()) +
-                               " sources are given, must be one by --source or --near");
-  if (settings.axis_text.empty()) return;
-  settings.axis = parsePosition(settings.axis_text, "--axis");
-  if (settings.axis.isZero(0)) throw tufted::InvalidInput("--axis " + settings.axis_text + " has no direction");
-}
-
-Results compute(Settings& settings, Operator& source) {
-  Results results;
-  const int point = locate(settings.places, source, results).front();
-  requireTakingPart({point}, source);
-  settings.options.solver = source.solverOptions();
-  const tufted::LogMapSolver solver(source.laplacian, orientedFrames(settings.orienting, source, results),
-                                    settings.options);
-  const tufted::LogMap map = solver.query(point, settings.axis, source.progress);
-  const auto direction = [](const Eigen::RowVector3d& v) { return std::vector<double>{v[0], v[1], v[2]}; };
-  results.report["source_point"] = point;
-  results.report["axes"] = {direction(map.first), direction(map.second)};
-  results.summary.add("first axis", "%.6g, %.6g, %.6g", map.first[0], map.first[1], map.first[2]);
-  results.summary.add("second axis", "%.6g, %.6g, %.6g", map.second[0], map.second[1], map.second[2]);
-  const bool is_heat = settings.options.method == tufted::LogMapMethod::heat;
-  results.report["method"] = is_heat ? "heat" : "exact";
-  if (is_heat) {
-    addReport(map.report, solver.report(), results);
-  } else {
-    results.report["report"] = {{"seconds", map.report.seconds}};
-    results.summary.addDetail("query", "shortest paths over the triangles, %.3g s", map.report.seconds);
-  }
-  results.summary.add("not reached", "%lld points, which are NaN",
-                      static_cast<long long>(map.coordinates.col(0).array().isNaN().count()));
-  results.arrays = {{.name = "logmap", .values = map.coordinates}};
-  return results;
-}
-
 }  // namespace
-}  // namespace logmap_command
 
 void addLogmap(CLI::App& app, Run& run) {
-  using namespace logmap_command;
-  const auto [command, settings] =
-      addOperatorCommand<Settings>(app, run, "logmap", description, footer, compute, check);
-  settings->source.cover = CoverUse::all;
-  addOrienting(*command, settings->orienting);
-  addPointOptions(*command, settings->points, "Source, the centre of the map");
-  command
-      ->add_option("--axis", settings->axis_text, "Direction of the first coordinate axis at the source (any tangent)")
-      ->type_name("X,Y,Z");
-  addChoice(*command, "--method", settings->options.method, methods,
-            "exact: shortest paths; heat: less accurate, for millions of points (exact)");
+  addSubcommand<Logmap>(app, run);
 }

@@ -49,14 +49,6 @@ std::string checkSize(const std::string& text) {
   return parseSize(text, width, height) ? "" : text + " is not WIDTHxHEIGHT, from 16 to 8192 each";
 }
 
-std::string checkMap(const std::string& name) {
-  const std::vector<std::string> known = tufted::colorMapNames();
-  if (std::find(known.begin(), known.end(), name) != known.end()) return "";
-  std::string all;
-  for (const std::string& map : known) all += (all.empty() ? "" : "|") + map;
-  return name + " is none of " + all + didYouMean(name, known);
-}
-
 void setCamera(const std::string& text, tufted::Camera& camera) {
   if (text == "top") {
     camera.azimuth = -90;
@@ -128,13 +120,10 @@ void addFields(const tufted::Geometry& geometry, std::vector<ShownField>& fields
 int indexOf(const tufted::Scene& scene, const std::string& name) {
   if (name.empty()) return 0;
   if (name == "none") return -1;
-  std::vector<std::string> known;
-  for (const SceneField& field : scene.fields) known.push_back(field.name);
+  std::vector<std::string> known = namesOf(scene.fields);
   if (const std::ptrdiff_t at = tufted::findField(known, name); at >= 0) return static_cast<int>(at);
   known.insert(known.end(), {"x", "y", "z"});
-  std::string all;
-  for (const std::string& field : known) all += (all.empty() ? "" : ", ") + field;
-  throw tufted::InvalidInput("--color " + name + " is none of " + all + didYouMean(name, known));
+  throw tufted::InvalidInput("--color " + noneOf(name, known));
 }
 
 /// The first column that is not constant, or 0 if there is none; the first eigenvectors are constant.
@@ -169,22 +158,18 @@ tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
 }  // namespace
 
 void addPictureOptions(CLI::App& command, Look& look) {
-  command.add_option("--png", look.png, "Write a picture")->check(notEmpty)->type_name("FILE.png");
-  command
-      .add_option("--color", look.color,
-                  "Field to show; x, y, z or normal for places and directions; none for the shape alone (the first "
-                  "field; without one the height)")
-      ->check(notEmpty)
-      ->type_name("FIELD");
-  addNumber(command, "--column", look.column, 0, std::numeric_limits<int>::max(),
-            "Column of the field that is shown, counted from 0 (the first that is not constant)")
-      ->type_name("K");
+  addText(command, "--png FILE.png", look.png, "Write a picture");
+  addText(command, "--color FIELD", look.color,
+          "Field to show; x, y, z or normal for places and directions; none for the shape alone (the first "
+          "field; without one the height)");
+  addNumber(command, "--column K", look.column, 0, std::numeric_limits<int>::max(),
+            "Column of the field that is shown, counted from 0 (the first that is not constant)");
   const auto set_map = [&look](const std::string& name) { look.picture.color_map = name; };
   command
       .add_option_function<std::string>("--colormap", set_map,
                                         "Colours: viridis, cividis, magma, coolwarm, purple_green or labels "
                                         "(chosen by the meaning of the values)")
-      ->check(checkMap)
+      ->check([](const std::string& name) { return refuseName(name, tufted::colorMapNames()); })
       ->type_name("NAME");
   const auto set_camera = [&look](const std::string& text) { setCamera(text, look.picture.camera); };
   command
@@ -203,7 +188,7 @@ void addPictureOptions(CLI::App& command, Look& look) {
 }
 
 void addLookOptions(CLI::App& command, Look& look) {
-  command.add_option("--view", look.page, "Write a page for a browser")->check(notEmpty)->type_name("FILE.html");
+  addText(command, "--view FILE.html", look.page, "Write a page for a browser");
   addPictureOptions(command, look);
 }
 
@@ -219,14 +204,9 @@ void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<
   for (const char* const axis : {"x", "y", "z"}) fields.push_back({axis});
   if (has_normals && (!geometry.is_mesh || geometry.normals.rows() > 0)) fields.push_back({"normal"});
   if (look.color == "none" || (look.color.empty() && !look.isWanted())) return;
-  std::vector<std::string> names;
-  for (const ShownField& field : fields) names.push_back(field.name);
+  const std::vector<std::string> names = namesOf(fields);
   const std::ptrdiff_t found = look.color.empty() ? 0 : tufted::findField(names, look.color);
-  if (found < 0) {
-    std::string all;
-    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-    throw tufted::InvalidInput("--color " + look.color + " is none of " + all + didYouMean(look.color, names));
-  }
+  if (found < 0) throw tufted::InvalidInput("--color " + noneOf(look.color, names));
   const ShownField& field = fields[static_cast<std::size_t>(found)];
   if (field.columns > 0 && look.column.value_or(0) >= field.columns)
     refuseColumn(*look.column, field.name, field.columns);

@@ -1,26 +1,11 @@
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "command.h"
-#include "operator.h"
-#include "options.h"
-#include "point_options.h"
-#include "tufted/errors.h"
+#include "subcommand.h"
 #include "tufted/shape_maps.h"
-#include "warnings.h"
 
-namespace map_command {
 namespace {
 
-constexpr const char* description = "Map another shape to the surface: which point corresponds to which.";
-
-constexpr const char* footer =
-    R"(Examples:
+struct Map : Subcommand {
+  explicit Map(CLI::App& app)
+      : Subcommand(app, "map", "Map another shape to the surface: which point corresponds to which.", R"(Examples:
   tufted map bent.off --from flat.off --out maps
   tufted map bent.off --from flat.off --landmarks pairs.txt --count 60 --out maps --png maps.png
 
@@ -37,133 +22,117 @@ Files in DIR, which replace older ones when all are complete:
   image.npy      N' x 3, float64: positions of the points to_source, NaN where there is none
   map.npy        K x K, float64: from coefficients of functions on the source to those on FILE, in bases of norm 1
   points.ply     the points of FILE with the fields image and to_source, float32; points.pcd with --format pcd
-  report.json    there_and_back: mean distance of points from where they come back to, over the root of the area
-`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --out DIR` wrote.)";
+  report.json    there_and_back: mean distance of points from where they come back to, over the root of the area)") {
+    addText(command, "--from SOURCE", from.file, "The other shape, a cloud or a mesh")->required();
+    addText(command, "--landmarks TEXT", landmarks,
+            "Text file of pairs of corresponding points, lines SOURCE TARGET of their indices");
+    addNumber(command, "--count K", count, 2, 10000, "Number of eigenpairs of the map, zeros included (100)");
+    addNumber(command, "--commutativity W", options.commutativity, 0., std::numeric_limits<double>::max(),
+              "How much the first map is asked to commute with the Laplacians (0.03)");
+  }
 
-struct Settings {
-  OperatorSettings source;  ///< of FILE, the target
+  void check(const Operator& source) override {
+    from.as = input.as;
+    from.weld = input.weld;
+    source_build = build;
+    refuseTooMany(from);
+    shape = readInput(from, source.progress);
+    if (shape.is_mesh) source_build.cloud_only.clear();  // these options are meant for FILE, if that is a cloud
+    stages = spectralStages(count);
+    shown = {{"image", 3}};
+    const auto rows = static_cast<double>(shape.points.rows());
+    options.landmarks.clear();
+    if (landmarks.empty()) return;
+    for (const Row& row : readRows(landmarks)) {
+      if (row.numbers.size() != 2) throw tufted::IoError(row.name + ": is not SOURCE TARGET, two indices");
+      const double first = row.numbers[0];
+      if (!(first >= 0 && first < rows && first == std::floor(first)))
+        throw tufted::InvalidInput(row.name + ": " + numberText(first) + " is no index in [0, " + numberText(rows) +
+                                   "), the points of " + from.name());
+      const Place place = placeOf({row.numbers[1]}, source, row.name);
+      options.landmarks.push_back({static_cast<int>(first), place.index});
+    }
+  }
+
+  /// Finds the first `count` eigenpairs of a shape, or all if it has fewer.
+  /// @throws IoError for a shape that cannot be mapped
+  static tufted::Spectrum pairsOf(const std::string& name, const tufted::Laplacian& laplacian, int count,
+                                  const Operator& source) {
+    const int most = tufted::mostEigenpairs(laplacian);
+    if (most == 0) {
+      const std::string why = nothingActive(laplacian);
+      throw tufted::IoError(name + ": " + (why.empty() ? "no active point has an area" : why));
+    }
+    tufted::Spectrum pairs = tufted::spectrum(laplacian, std::min(count, most), source.spectrumOptions());
+    if ((pairs.values.array() > 0).count() < 2)
+      throw tufted::IoError(name + ": fewer than two of its " + std::to_string(pairs.values.size()) +
+                            " first eigenvalues are positive, as it has many components or few points");
+    return pairs;
+  }
+
+  /// The mean distance of points from where a map and its inverse bring them, over the root of the area.
+  static double thereAndBack(const tufted::PointMaps& maps, const tufted::Laplacian& laplacian) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < maps.to_source.size(); ++i) {
+      if (maps.to_source[i] < 0) continue;
+      const int back = maps.to_target[static_cast<std::size_t>(maps.to_source[i])];
+      sum += (laplacian.positions.row(back) - laplacian.positions.row(laplacian.representative[i])).stableNorm();
+      ++count;
+    }
+    return sum / count / std::sqrt(laplacian.M.sum());
+  }
+
+  Results compute(Operator& source) override {
+    Results results;
+    const std::string name = from.name();
+    const tufted::Laplacian other = buildLaplacian(shape, from, source_build, false, source.progress);
+    results.warnings = warningsOf(name, shape, tufted::warnings(other.report));
+    constexpr int least_pairs = 100;  // wave kernel signatures of fewer tell less, see FunctionalMapOptions
+    const int pairs = std::max(count, least_pairs);
+    const tufted::Spectrum first = pairsOf(name, other, pairs, source);
+    const tufted::Spectrum second = pairsOf(source.name, source.laplacian, pairs, source);
+    const tufted::MappedShape other_shape = {other, first}, own = {source.laplacian, second};
+    options.k = std::min(options.k, count);
+    options.progress = source.progress;
+    const Eigen::MatrixXd start = tufted::functionalMap(other_shape, own, options);
+    const Eigen::MatrixXd C =
+        tufted::zoomOut(other_shape, own, start, {.k = count, .threads = source.threads, .progress = source.progress});
+    const tufted::PointMaps maps = tufted::pointMaps(other_shape, own, C, source.threads, source.progress);
+    Eigen::MatrixXd image(std::ssize(maps.to_source), 3);
+    for (Eigen::Index i = 0; i < image.rows(); ++i) {
+      const int point = maps.to_source[static_cast<std::size_t>(i)];
+      if (point < 0)
+        image.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      else
+        image.row(i) = shape.points.row(point);
+    }
+    const double back = thereAndBack(maps, source.laplacian);
+    results.report["from"] = name;
+    results.report["eigenpairs"] = C.rows();
+    results.report["landmarks"] = options.landmarks.size();
+    results.report["there_and_back"] = back;
+    results.summary.add("eigenpairs", "%ld, %zu landmarks", static_cast<long>(C.rows()), options.landmarks.size());
+    results.summary.add("there and back", "%.3g of the root of the area, mean distance", back);
+    results.shown = {{.name = "image", .values = image}};
+    results.arrays = {{.name = "image", .values = std::move(image)},
+                      {.name = "to_source", .values = columnOf(maps.to_source), .is_integer = true},
+                      {.name = "to_target", .values = columnOf(maps.to_target), .per_point = false, .is_integer = true},
+                      {.name = "map", .values = C, .per_point = false}};
+    return results;
+  }
+
   Input from;
-  Build build;  ///< of the source
+  Build source_build;  ///< of the source
   tufted::Geometry shape;
   std::filesystem::path landmarks;
   int count = 100;
   tufted::FunctionalMapOptions options;
 
-  std::vector<std::string> files() const { return {"image.npy", "to_source.npy", "to_target.npy", "map.npy"}; }
+  std::vector<std::string> files() const override { return {"image.npy", "to_source.npy", "to_target.npy", "map.npy"}; }
 };
 
-void check(Settings& settings, const Operator& source) {
-  settings.from.as = settings.source.input.as;
-  settings.from.weld = settings.source.input.weld;
-  settings.build = settings.source.build;
-  refuseTooMany(settings.from);
-  settings.shape = readInput(settings.from, source.progress);
-  if (settings.shape.is_mesh)
-    settings.build.cloud_only.clear();  // these options are meant for FILE, if that is a cloud
-  settings.source.stages = spectralStages(settings.count);
-  settings.source.shown = {{"image", 3}};
-  const auto rows = static_cast<double>(settings.shape.points.rows());
-  settings.options.landmarks.clear();
-  if (settings.landmarks.empty()) return;
-  for (const Row& row : readRows(settings.landmarks)) {
-    if (row.numbers.size() != 2) throw tufted::IoError(row.name + ": is not SOURCE TARGET, two indices");
-    const double first = row.numbers[0];
-    if (!(first >= 0 && first < rows && first == std::floor(first)))
-      throw tufted::InvalidInput(row.name + ": " + numberText(first) + " is no index in [0, " + numberText(rows) +
-                                 "), the points of " + settings.from.name());
-    const Place place = placeOf({row.numbers[1]}, source, row.name);
-    settings.options.landmarks.push_back({static_cast<int>(first), place.index});
-  }
-}
-
-/// Finds the first `count` eigenpairs of a shape, or all if it has fewer.
-/// @throws IoError for a shape that cannot be mapped
-tufted::Spectrum pairsOf(const std::string& name, const tufted::Laplacian& laplacian, int count,
-                         const Operator& source) {
-  const int most = tufted::mostEigenpairs(laplacian);
-  if (most == 0) {
-    const std::string why = nothingActive(laplacian);
-    throw tufted::IoError(name + ": " + (why.empty() ? "no active point has an area" : why));
-  }
-  tufted::Spectrum pairs = tufted::spectrum(laplacian, std::min(count, most), source.spectrumOptions());
-  if ((pairs.values.array() > 0).count() < 2)
-    throw tufted::IoError(name + ": fewer than two of its " + std::to_string(pairs.values.size()) +
-                          " first eigenvalues are positive, as it has many components or few points");
-  return pairs;
-}
-
-/// The mean distance of points from where a map and its inverse bring them, over the root of the area.
-double thereAndBack(const tufted::PointMaps& maps, const tufted::Laplacian& laplacian) {
-  double sum = 0, count = 0;
-  for (std::size_t i = 0; i < maps.to_source.size(); ++i) {
-    if (maps.to_source[i] < 0) continue;
-    const int back = maps.to_target[static_cast<std::size_t>(maps.to_source[i])];
-    sum += (laplacian.positions.row(back) - laplacian.positions.row(laplacian.representative[i])).stableNorm();
-    ++count;
-  }
-  return sum / count / std::sqrt(laplacian.M.sum());
-}
-
-Results compute(Settings& settings, Operator& source) {
-  Results results;
-  const std::string name = settings.from.name();
-  const tufted::Laplacian other = buildLaplacian(settings.shape, settings.from, settings.build, false, source.progress);
-  results.warnings = warningsOf(name, settings.shape);
-  for (const std::string& line : warningsOf(name, other.report)) results.warnings.push_back(line);
-  constexpr int least_pairs = 100;  // wave kernel signatures of fewer tell less, see FunctionalMapOptions
-  const int pairs = std::max(settings.count, least_pairs);
-  const tufted::Spectrum first = pairsOf(name, other, pairs, source);
-  const tufted::Spectrum second = pairsOf(source.name, source.laplacian, pairs, source);
-  const tufted::MappedShape from = {other, first}, to = {source.laplacian, second};
-  settings.options.k = std::min(settings.options.k, settings.count);
-  settings.options.progress = source.progress;
-  const Eigen::MatrixXd start = tufted::functionalMap(from, to, settings.options);
-  const Eigen::MatrixXd C =
-      tufted::zoomOut(from, to, start, {.k = settings.count, .threads = source.threads, .progress = source.progress});
-  const tufted::PointMaps maps = tufted::pointMaps(from, to, C, source.threads, source.progress);
-  Eigen::MatrixXd image(std::ssize(maps.to_source), 3);
-  for (Eigen::Index i = 0; i < image.rows(); ++i) {
-    const int point = maps.to_source[static_cast<std::size_t>(i)];
-    if (point < 0)
-      image.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-    else
-      image.row(i) = settings.shape.points.row(point);
-  }
-  const double back = thereAndBack(maps, source.laplacian);
-  results.report["from"] = name;
-  results.report["eigenpairs"] = C.rows();
-  results.report["landmarks"] = settings.options.landmarks.size();
-  results.report["there_and_back"] = back;
-  results.summary.add("eigenpairs", "%ld, %zu landmarks", static_cast<long>(C.rows()),
-                      settings.options.landmarks.size());
-  results.summary.add("there and back", "%.3g of the root of the area, mean distance", back);
-  results.shown = {{.name = "image", .values = image}};
-  results.arrays = {{.name = "image", .values = std::move(image)},
-                    {.name = "to_source", .values = columnOf(maps.to_source), .is_integer = true},
-                    {.name = "to_target", .values = columnOf(maps.to_target), .per_point = false, .is_integer = true},
-                    {.name = "map", .values = C, .per_point = false}};
-  return results;
-}
-
 }  // namespace
-}  // namespace map_command
 
 void addMap(CLI::App& app, Run& run) {
-  using namespace map_command;
-  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "map", description, footer, compute, check);
-  command->add_option("--from", settings->from.file, "The other shape, a cloud or a mesh")
-      ->required()
-      ->check(notEmpty)
-      ->type_name("SOURCE");
-  command
-      ->add_option("--landmarks", settings->landmarks,
-                   "Text file of pairs of corresponding points, lines SOURCE TARGET of their indices")
-      ->check(notEmpty)
-      ->type_name("TEXT");
-  addNumber(*command, "--count", settings->count, 2, 10000, "Number of eigenpairs of the map, zeros included (100)")
-      ->type_name("K");
-  addNumber(*command, "--commutativity", settings->options.commutativity, 0., std::numeric_limits<double>::max(),
-            "How much the first map is asked to commute with the Laplacians (0.03)")
-      ->type_name("W");
+  addSubcommand<Map>(app, run);
 }

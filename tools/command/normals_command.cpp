@@ -1,16 +1,11 @@
-#include <CLI/CLI.hpp>
+#include "subcommand.h"
 
-#include "command.h"
-#include "operator.h"
-#include "oriented.h"
-
-namespace normals_command {
 namespace {
 
-constexpr const char* description = "Compute normals that face the sensor, or that consistently point outwards.";
-
-constexpr const char* footer =
-    R"(Example:
+struct Normals : Subcommand {
+  explicit Normals(CLI::App& app)
+      : Subcommand(app, "normals", "Compute normals that face the sensor, or that consistently point outwards.",
+                   R"(Example:
   tufted normals scan.ply --out normals
 
 The normal of a point is that of the plane through its neighbours; on a mesh it is that of the triangles.
@@ -22,36 +17,28 @@ the sheet bulges. On a plane the largest coordinate of the mean normal is positi
 Files in DIR, which replace older ones when all are complete:
   normals.npy  N x 3, float64, of unit length; 0 at points that are not finite
   points.ply   the points with the normals, float32; points.pcd with --format pcd
-  report.json  orientation, components, reversed normals, pairs of neighbours that disagree, seconds
-`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --out DIR` wrote.)";
+  report.json  orientation, components, reversed normals, pairs of neighbours that disagree, seconds)") {
+    addOrienting(command, orienting);
+  }
 
-struct Settings {
-  OperatorSettings source;
+  void check(const Operator& source) override { checkFrames(source); }
+
+  Results compute(Operator& source) override {
+    Results results;
+    source.laplacian.frames = orientedFrames(orienting, source, results);
+    // The copies of the points get these normals, not those of the file.
+    source.geometry.normals = {};
+    results.arrays = {{.name = "normals", .values = source.laplacian.frames.normals, .per_point = false}};
+    return results;
+  }
+
   Orienting orienting;
 
-  std::vector<std::string> files() const { return {"normals.npy"}; }
+  std::vector<std::string> files() const override { return {"normals.npy"}; }
 };
 
-void check(Settings&, const Operator& source) {
-  checkFrames(source);
-}
-
-Results compute(Settings& settings, Operator& source) {
-  Results results;
-  source.laplacian.frames = orientedFrames(settings.orienting, source, results);
-  // The copies of the points get these normals, not those of the file.
-  source.geometry.normals = {};
-  results.arrays = {{.name = "normals", .values = source.laplacian.frames.normals, .per_point = false}};
-  return results;
-}
-
 }  // namespace
-}  // namespace normals_command
 
 void addNormals(CLI::App& app, Run& run) {
-  using namespace normals_command;
-  const auto [command, settings] =
-      addOperatorCommand<Settings>(app, run, "normals", description, footer, compute, check);
-  addOrienting(*command, settings->orienting);
+  addSubcommand<Normals>(app, run);
 }

@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "bytes.h"
+#include "console.h"
 #include "interrupt.h"
 #include "options.h"
 #include "output.h"
-#include "peak_memory.h"
 #include "progress_bar.h"
 #include "scene_fields.h"
 #include "tufted/errors.h"
@@ -28,16 +28,9 @@ void addSolvingOptions(CLI::App& command, Solving& solving) {
   addChoice(
       command, "--solver", solving.method, methods,
       "How linear systems are solved; SolverMethod in messages (automatic: cholesky if its factor fits into memory)");
-  const auto set = [&solving](const std::string& text) { solving.memory_limit = parseBytes(text).value(); };
-  const auto check = [](const std::string& text) {
-    return parseBytes(text) ? std::string() : text + " is no size such as 500MB or 2GiB";
-  };
-  command
-      .add_option_function<std::string>(
-          "--memory-limit", set,
-          "Memory for Cholesky factors, such as 500MB or 2GiB; memory_limit in messages (half of the available memory)")
-      ->check(check)
-      ->type_name("SIZE");
+  addBytes(
+      command, "--memory-limit", [&solving](std::size_t bytes, const std::string&) { solving.memory_limit = bytes; },
+      "Memory for Cholesky factors, such as 500MB or 2GiB; memory_limit in messages (half of the available memory)");
 }
 
 void readFolder(const OperatorSettings& settings, Operator& source) {
@@ -45,7 +38,7 @@ void readFolder(const OperatorSettings& settings, Operator& source) {
   source.laplacian = tufted::readLaplacian(folder, settings.needsCover(false));
   if (settings.needsCover(source.laplacian.kind == tufted::Kind::mesh) && !source.laplacian.hasCover())
     throw tufted::IoError(folder.string() + ": has no cover.npz, which `tufted laplacian --format npz,ply,cover` " +
-                          "writes and " + settings.command + " needs");
+                          "writes and " + settings.command.get_name() + " needs");
   source.geometry = tufted::readPoints(folder, source.progress);
   const auto n = static_cast<Eigen::Index>(source.laplacian.status.size());
   if (source.geometry.points.rows() != n && source.geometry.points.rows() > 0)
@@ -55,7 +48,7 @@ void readFolder(const OperatorSettings& settings, Operator& source) {
 
 /// The scene of a look: the results on the points, which the command may have moved.
 tufted::Scene shownScene(const OperatorSettings& settings, const Operator& source, const Results& results) {
-  const std::string title = settings.command + ": " + std::filesystem::path(source.name).filename().string();
+  const std::string title = settings.command.get_name() + ": " + std::filesystem::path(source.name).filename().string();
   return sceneOf(title, source.geometry, source.laplacian, results.shown.empty() ? results.arrays : results.shown);
 }
 
@@ -69,7 +62,8 @@ std::vector<ShownField> fieldsOf(const OperatorSettings& settings, const std::ve
 }
 
 void write(const OperatorSettings& settings, const Operator& source, const Results& results) {
-  nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", settings.command}, {"source", source.name}};
+  nlohmann::ordered_json json = {
+      {"tufted", TUFTED_VERSION}, {"command", settings.command.get_name()}, {"source", source.name}};
   if (source.chosen.of > 0) json["selection"] = source.chosen.json();
   json.update(results.report);
   const tufted::Report& built = source.laplacian.report;
@@ -80,8 +74,7 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
                      {"denoised", built.denoised},
                      {"noise", built.noise}};
   tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress, .lines = results.lines};
-  // Paths need not be UTF-8.
-  options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  options.report = textOf(json);
   if (source.geometry.points.rows() == 0 && source.points() > 0) options.copies.clear();
   if (results.write)
     results.write(settings.out, options);
@@ -113,101 +106,102 @@ auto blameData(const Operator& source, const Step& step) {
 
 }  // namespace
 
-void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
-  settings.command = command.get_name();
-  CLI::Option* const file = addInput(command, settings.input)->required(false);
-  addWeld(command, settings.input);
-  CLI::Option* const folder =
-      command
-          .add_option("--operator", settings.folder,
-                      "Read L and M that `tufted laplacian --out DIR` wrote, instead of building them from FILE")
-          ->check(notEmpty)
-          ->type_name("DIR");
-  addOut(command, settings.out);
-  addCopies(command, settings.copies);
+Subcommand::Subcommand(CLI::App& app, const char* name, const char* description, const std::string& footer,
+                       const std::string& written)
+    : OperatorSettings(*app.add_subcommand(name, description)) {
+  command.footer(footer +
+                 "\n`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M "
+                 "that\n`tufted laplacian " +
+                 written);
+  CLI::Option* const file = addInput(command, input)->required(false);
+  addWeld(command, input);
+  CLI::Option* const folder_option =
+      addText(command, "--operator DIR", folder,
+              "Read L and M that `tufted laplacian --out DIR` wrote, instead of building them from FILE");
+  addOut(command, out);
+  addCopies(command, copies);
   command.option_defaults()->group("Building the Laplacian");
-  addBuildOptions(command, settings.build);
+  addBuildOptions(command, build);
   command.option_defaults()->group("Linear systems and connected components");
-  addSolvingOptions(command, settings.solving);
-  addComponentOptions(command, settings.components);
+  addSolvingOptions(command, solving);
+  addComponentOptions(command, components);
   command.option_defaults()->group("Picture and page of the result");
-  addLookOptions(command, settings.look);
-  addVerboseConsole(command, settings.console);
+  addLookOptions(command, look);
+  addVerboseConsole(command, console);
   command.option_defaults()->group("Options");  // the group of the subcommand's own options, listed first
   std::vector<const CLI::Option*> unused;
   for (const char* const of_file : {"--as", "--weld", "--where", "--crop", "--polygon", "--thin"})
     unused.push_back(command.get_option(of_file));
-  unused.insert(unused.end(), settings.build.building.begin(), settings.build.building.end());
-  command.parse_complete_callback([file, folder, unused, &command, &settings] {
-    settings.inputs = inputsOf(command);
-    if (file->count() + folder->count() != 1) throw CLI::RequiredError("exactly one of FILE and --operator");
-    checkSeed(settings.build);
-    if (folder->count() == 0) return;
+  unused.insert(unused.end(), build.building.begin(), build.building.end());
+  command.parse_complete_callback([this, file, folder_option, unused] {
+    inputs = inputsOf(command);
+    if (file->count() + folder_option->count() != 1) throw CLI::RequiredError("exactly one of FILE and --operator");
+    checkSeed(build);
+    if (folder_option->count() == 0) return;
     for (const CLI::Option* option : unused)
       if (option->count() > 0) throw CLI::ExcludesError(option->get_name(), "--operator");
   });
 }
 
-int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
-                    const Compute& compute) {
+int Subcommand::run() {
   const auto start = std::chrono::steady_clock::now();
-  ProgressBar bar(settings.console.quiet);
+  ProgressBar bar(console.quiet);
   Operator source;
-  source.name = settings.name();
-  source.solving = settings.solving;
-  source.threads = settings.build.cloud.threads;
-  source.up = settings.look.picture.camera.up;
+  source.name = name();
+  source.solving = solving;
+  source.threads = build.cloud.threads;
+  source.up = look.picture.camera.up;
   source.progress = showOn(bar);
   const auto checkpoint = [] {
     if (interrupted()) throw tufted::Cancelled("cancelled");
   };
   source.progress("read", 0);
-  for (const std::string& name : tufted::resultFiles({}, {.copies = settings.copies})) files.push_back(name);
-  checkLook(settings.look, settings.out, settings.inputs);
-  checkOutput(settings.inputs, settings.out, files);
-  if (settings.folder.empty()) {
-    refuseTooMany(settings.input);
-    source.geometry = readInput(settings.input, source.progress);
+  std::vector<std::string> written = files();
+  for (const std::string& copy : tufted::resultFiles({}, {.copies = copies})) written.push_back(copy);
+  checkLook(look, out, inputs);
+  checkOutput(inputs, out, written);
+  if (folder.empty()) {
+    refuseTooMany(input);
+    source.geometry = readInput(input, source.progress);
   } else {
-    readFolder(settings, source);
+    readFolder(*this, source);
   }
-  source.chosen = settings.input.chosen;
+  source.chosen = input.chosen;
   checkpoint();
-  if (settings.look.isWanted() && source.geometry.points.rows() == 0 && source.points() > 0)
+  if (look.isWanted() && source.geometry.points.rows() == 0 && source.points() > 0)
     throw tufted::IoError(source.name + ": has no points to look at, which `tufted laplacian --format npz,ply` writes");
   blameData(source, [&] { check(source); });
-  const bool moves = !settings.shown.empty() && settings.shown.front().name == moved_points_field;
-  std::vector<ShownField> fields = fieldsOf(settings, files);
-  requireLas(source.geometry, settings.copies, source.name, fields);
+  const bool moves = !shown.empty() && shown.front().name == moved_points_field;
+  std::vector<ShownField> fields = fieldsOf(*this, written);
+  requireLas(source.geometry, copies, source.name, fields);
   fields.insert(fields.end(), laplacian_fields.begin(), laplacian_fields.end());
-  checkField(settings.look, source.geometry, fields, !moves);
-  bar.follow({source.geometry, settings.stages});
-  if (settings.folder.empty())
-    source.laplacian = buildLaplacian(source.geometry, settings.input, settings.build,
-                                      settings.needsCover(source.geometry.is_mesh), source.progress);
-  source.moved = std::move(settings.build.moved);
+  checkField(look, source.geometry, fields, !moves);
+  bar.follow({source.geometry, stages});
+  if (folder.empty())
+    source.laplacian =
+        buildLaplacian(source.geometry, input, build, needsCover(source.geometry.is_mesh), source.progress);
+  source.moved = std::move(build.moved);
   checkpoint();
-  std::vector<std::string> warnings = warningsOf(source.name, source.geometry);
-  for (const std::string& line : warningsOf(source.name, source.laplacian.report)) warnings.push_back(line);
+  std::vector<std::string> warnings =
+      warningsOf(source.name, source.geometry, tufted::warnings(source.laplacian.report));
   Results chosen;
-  chooseComponents(settings.components, source, chosen);
+  chooseComponents(components, source, chosen);
   Results results = blameData(source, [&] { return compute(source); });
   if (!chosen.report.is_null()) results.report.update(chosen.report);
   writeAndShow(
-      settings.look, source.geometry, [&] { return shownScene(settings, source, results); },
-      [&] { write(settings, source, results); });
+      look, source.geometry, [&] { return shownScene(*this, source, results); },
+      [&] { write(*this, source, results); });
   bar.clear();
   warnings.insert(warnings.end(), results.warnings.begin(), results.warnings.end());
   for (const std::string& warning : warnings) warn(bar, warning);
   Summary summary;
-  addMerged(source.geometry, settings.input, summary);
+  addMerged(source.geometry, input, summary);
   summary.append(chosen.summary);
   summary.append(results.summary);
-  addBuild(source.laplacian.report, settings.build, summary);
+  addBuild(source.laplacian.report, build, summary);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  summary.add("took", "%.3g s, peak memory %.0f MB", seconds.count(), peakMemory());
-  summary.add("written to", "%s", settings.out.c_str());
-  addLook(settings.look, summary);
-  sayResults(settings.console, summary, settings.out, warnings);
+  addEnd(seconds.count(), out, summary);
+  addLook(look, summary);
+  sayResults(console, summary, out, warnings);
   return exit_done;
 }

@@ -17,7 +17,7 @@
 #include "input.h"
 #include "look.h"
 #include "paths.h"
-#include "plan.h"
+#include "progress_bar.h"
 #include "summary.h"
 #include "tufted/io/results.h"
 #include "tufted/laplacian.h"
@@ -40,7 +40,9 @@ enum class CoverUse { none, clouds, all };
 
 /// The options of a command that uses a Laplacian.
 struct OperatorSettings {
-  std::string command;           ///< name of the command
+  explicit OperatorSettings(CLI::App& subcommand) : command(subcommand) {}
+
+  CLI::App& command;
   Input input;                   ///< FILE; empty with --operator
   std::filesystem::path folder;  ///< folder given by --operator
   std::filesystem::path out;
@@ -61,10 +63,6 @@ struct OperatorSettings {
   /// Name of the source in messages.
   std::string name() const { return folder.empty() ? input.name() : folder.string(); }
 };
-
-/// Adds FILE, --operator, --out, --format and the options of building and of solving, and checks that they fit
-/// together.
-void addOperatorOptions(CLI::App& command, OperatorSettings& settings);
 
 /// A Laplacian, and the points it belongs to.
 struct Operator {
@@ -113,43 +111,33 @@ struct Results {  // NOLINT(bugprone-exception-escape): moves of its json, which
   std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};
 };
 
-/// Checks options before the Laplacian is built, which may take long. The source already has its points and, with
-/// --operator, its Laplacian.
-using Check = std::function<void(const Operator& source)>;
-/// Computes the results. It may change the points, whose copies are written.
-using Compute = std::function<Results(Operator& source)>;
+/// A subcommand that uses a Laplacian: its options, and what it computes.
+struct Subcommand : OperatorSettings {
+  /// Adds FILE, --operator, --out, --format and the options of building and of solving.
+  /// @param footer ends the help of the subcommand, and is followed by how FILE and --operator are given
+  /// @param written the options by which the folder of --operator is written, and what for
+  Subcommand(CLI::App& app, const char* name, const char* description, const std::string& footer,
+             const std::string& written = "--out DIR` wrote.");
+  virtual ~Subcommand() = default;
+  Subcommand(const Subcommand&) = delete;
+  Subcommand& operator=(const Subcommand&) = delete;
 
-/// Loads the Laplacian, computes, writes the results and then the summary.
-/// @param files names of the results except the copies of the points and report.json
-/// @return an exit code
-int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
-                    const Compute& compute);
+  /// Names of the results except the copies of the points and report.json.
+  virtual std::vector<std::string> files() const = 0;
+  /// Checks options before the Laplacian is built, which may take long. The source already has its points and, with
+  /// --operator, its Laplacian.
+  virtual void check(const Operator& /*source*/) {}
+  /// Computes the results. It may change the points, whose copies are written.
+  virtual Results compute(Operator& source) = 0;
 
-template <class Settings>
-struct OperatorCommand {
-  CLI::App* command;
-  std::shared_ptr<Settings> settings;
+  /// Loads the Laplacian, computes, writes the results and then the summary.
+  /// @return an exit code
+  int run();
 };
 
-/// Adds a subcommand that uses a Laplacian, with the options of all such subcommands.
-/// @tparam Settings has a member `source` (OperatorSettings) and files() for runWithOperator()
-template <class Settings>
-OperatorCommand<Settings> addOperatorCommand(CLI::App& app, Run& run, const char* name, const char* description,
-                                             const char* footer, Results (*compute)(Settings&, Operator&),
-                                             void (*check)(Settings&, const Operator&) = nullptr) {
-  CLI::App* const command = app.add_subcommand(name, description);
-  command->footer(footer);
-  const auto settings = std::make_shared<Settings>();
-  addOperatorOptions(*command, settings->source);
-  command->callback([&run, settings, compute, check] {
-    run = [settings, compute, check] {
-      return runWithOperator(
-          settings->source, settings->files(),
-          [&](const Operator& source) {
-            if (check != nullptr) check(*settings, source);
-          },
-          [&](Operator& source) { return compute(*settings, source); });
-    };
-  });
-  return {command, settings};
+/// Adds a subcommand.
+template <class Derived>
+void addSubcommand(CLI::App& app, Run& run) {
+  const auto added = std::make_shared<Derived>(app);
+  added->command.callback([&run, added] { run = [added] { return added->run(); }; });
 }

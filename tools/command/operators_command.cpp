@@ -1,25 +1,14 @@
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <limits>
-#include <string>
-
-#include "command.h"
-#include "eigenpairs.h"
-#include "operator.h"
-#include "options.h"
-#include "reports.h"
-#include "tufted/errors.h"
+#include "subcommand.h"
 #include "tufted/gradient.h"
 #include "tufted/io/operators.h"
-#include "tufted/spectrum.h"
 
-namespace operators_command {
 namespace {
 
-constexpr const char* description =
-    "Write operators for learning on surfaces into one .npz, as DiffusionNet caches them.";
-
-constexpr const char* footer = R"(Example:
+struct Operators : Subcommand {
+  explicit Operators(CLI::App& app)
+      : Subcommand(
+            app, "operators", "Write operators for learning on surfaces into one .npz, as DiffusionNet caches them.",
+            R"(Example:
   tufted operators scan.ply --count 128 --out operators
 
 Files in DIR, which replace older ones when all are complete:
@@ -29,81 +18,73 @@ Files in DIR, which replace older ones when all are complete:
   points.ply     the points with the fields frames and evecs, float32; points.pcd with --format pcd
   report.json    iterations, residual and seconds of the spectrum, neighbours and seconds of the gradients
 gradX and gradY are slopes along the axes of the frames, by least squares over the nearest points. Rows of points that
-take no part are zero.
-`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --out DIR` wrote, and needs points.ply or points.pcd in DIR (of a mesh points.ply, for the triangles).)";
+take no part are zero.)",
+            R"(--out DIR` wrote, and needs points.ply or points.pcd in DIR (of a mesh points.ply, for the triangles).)") {
+    addCount(command, pairs, "--count", 1, "Number of eigenvalues, including zeros (128, or all if fewer)");
+    addSpectrumFolder(command, pairs);
+    addNumber(command, "--gradient-neighbors N", gradients.neighbors, 0, 10'000,
+              "Number of neighbours in each fit of a gradient; 0: the neighbours in L (30 for clouds, 0 for meshes)");
+    addNumber(command, "--gradient-regularization A", gradients.regularization, 0.0, std::numeric_limits<double>::max(),
+              "Regularization of the fits, in squared units of length; DiffusionNet uses 1e-5 (0)");
+  }
 
-struct Settings {
-  OperatorSettings source;
+  /// Checks that a folder has what is needed.
+  void check(const Operator& source) override {
+    const tufted::Geometry& geometry = source.geometry;
+    if (source.points() > 0 && geometry.points.rows() == 0)
+      throw tufted::IoError(source.name + ": has no points, which `tufted laplacian --format npz,ply` writes");
+    if (source.laplacian.L.rows() > 0 && !geometry.is_mesh && source.laplacian.frames.normals.rows() == 0)
+      throw tufted::IoError(source.name + ": has neither frames of a cloud nor the triangles of a mesh, which " +
+                            "`tufted laplacian --format npz,ply` writes");
+    checkPairs(pairs, source);
+    stages = spectralStages(pairs.count);
+    shown = {{"evecs", pairs.folder.empty() ? pairs.count : 0}};
+  }
+
+  Results compute(Operator& source) override {
+    const tufted::Geometry& geometry = source.geometry;
+    tufted::GradientOptions fitting = gradients;
+    fitting.threads = source.threads;
+    fitting.progress = source.progress;
+    // Folders of older versions have no positions; slopes are then measured between the points.
+    const tufted::Points& measured =
+        source.laplacian.positions.rows() > 0 ? source.laplacian.positions : geometry.points;
+    const tufted::Gradients found =
+        geometry.is_mesh
+            ? tufted::gradients(source.laplacian, geometry.points,
+                                tufted::meshFrames(source.laplacian, geometry.points, geometry.triangles), fitting)
+            : tufted::gradients(source.laplacian, measured, fitting);
+    const tufted::Spectrum spectrum = firstPairs(pairs, source);
+    Results results;
+    const auto count = static_cast<int>(spectrum.values.size());
+    results.summary.add("eigenvalues", "%d", count);
+    if (const int zeros = std::min(spectrum.report.null_space, count); 2 * zeros > count)
+      results.warnings.push_back(source.name + ": " + std::to_string(zeros) + " of " + std::to_string(count) +
+                                 " eigenvalues are 0, one for each connected component; take more by --count, or fewer "
+                                 "components by --component largest or --min-component N");
+    addReport(spectrum.report, results);
+    const tufted::GradientReport& fits = found.report;
+    results.report["gradients"] = {{"mean_neighbors", fits.mean_neighbors},
+                                   {"widened", fits.widened},
+                                   {"on_a_line", fits.on_a_line},
+                                   {"regularization", fitting.regularization},
+                                   {"seconds", fits.seconds}};
+    results.summary.addDetail("gradients", "of %.3g neighbors on average, %.3g s", fits.mean_neighbors, fits.seconds);
+    results.shown = {{.name = "evecs", .values = spectrum.vectors}};
+    results.write = [&source, found, spectrum](const std::filesystem::path& dir, const tufted::ResultOptions& options) {
+      tufted::writeOperators(dir, source.laplacian, source.geometry, found, spectrum, options);
+    };
+    return results;
+  }
+
   Eigenpairs pairs = {.count = 128, .has_zeros = true};
   tufted::GradientOptions gradients;
 
-  std::vector<std::string> files() const { return {"operators.npz"}; }
+  std::vector<std::string> files() const override { return {"operators.npz"}; }
 };
 
-/// Checks that a folder has what is needed.
-void check(Settings& settings, const Operator& source) {
-  const tufted::Geometry& geometry = source.geometry;
-  if (source.points() > 0 && geometry.points.rows() == 0)
-    throw tufted::IoError(source.name + ": has no points, which `tufted laplacian --format npz,ply` writes");
-  if (source.laplacian.L.rows() > 0 && !geometry.is_mesh && source.laplacian.frames.normals.rows() == 0)
-    throw tufted::IoError(source.name + ": has neither frames of a cloud nor the triangles of a mesh, which " +
-                          "`tufted laplacian --format npz,ply` writes");
-  checkPairs(settings.pairs, source);
-  settings.source.stages = spectralStages(settings.pairs.count);
-  settings.source.shown = {{"evecs", settings.pairs.folder.empty() ? settings.pairs.count : 0}};
-}
-
-Results compute(Settings& settings, Operator& source) {
-  const tufted::Geometry& geometry = source.geometry;
-  tufted::GradientOptions fitting = settings.gradients;
-  fitting.threads = source.threads;
-  fitting.progress = source.progress;
-  // Folders of older versions have no positions; slopes are then measured between the points.
-  const tufted::Points& measured = source.laplacian.positions.rows() > 0 ? source.laplacian.positions : geometry.points;
-  const tufted::Gradients gradients =
-      geometry.is_mesh
-          ? tufted::gradients(source.laplacian, geometry.points,
-                              tufted::meshFrames(source.laplacian, geometry.points, geometry.triangles), fitting)
-          : tufted::gradients(source.laplacian, measured, fitting);
-  const tufted::Spectrum spectrum = firstPairs(settings.pairs, source);
-  Results results;
-  const auto count = static_cast<int>(spectrum.values.size());
-  results.summary.add("eigenvalues", "%d", count);
-  if (const int zeros = std::min(spectrum.report.null_space, count); 2 * zeros > count)
-    results.warnings.push_back(source.name + ": " + std::to_string(zeros) + " of " + std::to_string(count) +
-                               " eigenvalues are 0, one for each connected component; take more by --count, or fewer "
-                               "components by --component largest or --min-component N");
-  addReport(spectrum.report, results);
-  const tufted::GradientReport& fits = gradients.report;
-  results.report["gradients"] = {{"mean_neighbors", fits.mean_neighbors},
-                                 {"widened", fits.widened},
-                                 {"on_a_line", fits.on_a_line},
-                                 {"regularization", fitting.regularization},
-                                 {"seconds", fits.seconds}};
-  results.summary.addDetail("gradients", "of %.3g neighbors on average, %.3g s", fits.mean_neighbors, fits.seconds);
-  results.shown = {{.name = "evecs", .values = spectrum.vectors}};
-  results.write = [&source, gradients, spectrum](const std::filesystem::path& dir,
-                                                 const tufted::ResultOptions& options) {
-    tufted::writeOperators(dir, source.laplacian, source.geometry, gradients, spectrum, options);
-  };
-  return results;
-}
-
 }  // namespace
-}  // namespace operators_command
 
 void addOperators(CLI::App& app, Run& run) {
-  using namespace operators_command;
-  const auto [command, settings] =
-      addOperatorCommand<Settings>(app, run, "operators", description, footer, compute, check);
-  addCount(*command, settings->pairs, "--count", 1, "Number of eigenvalues, including zeros (128, or all if fewer)");
-  addSpectrumFolder(*command, settings->pairs);
-  addNumber(*command, "--gradient-neighbors", settings->gradients.neighbors, 0, 10'000,
-            "Number of neighbours in each fit of a gradient; 0: the neighbours in L (30 for clouds, 0 for meshes)")
-      ->type_name("N");
-  addNumber(*command, "--gradient-regularization", settings->gradients.regularization, 0.0,
-            std::numeric_limits<double>::max(),
-            "Regularization of the fits, in squared units of length; DiffusionNet uses 1e-5 (0)")
-      ->type_name("A");
+  addSubcommand<Operators>(app, run);
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -35,6 +36,14 @@ inline std::string countText(std::int64_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
+/// The names of fields.
+template <class Fields>
+std::vector<std::string> namesOf(const Fields& fields) {
+  std::vector<std::string> names;
+  for (const auto& field : fields) names.push_back(field.name);
+  return names;
+}
+
 template <class T>
 std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
   std::vector<std::string> names;
@@ -42,19 +51,11 @@ std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
   for (const auto& [name, value] : values) names.push_back(name);
   return names;
 }
-/// The names in `values`, separated by "|".
-template <class T>
-std::string choiceOf(const std::map<std::string, T>& values) {
-  std::string all;
-  for (const auto& [name, value] : values) all += (all.empty() ? "" : "|") + name;
-  return all;
-}
 
-/// The message for a word that is not one of the names in `values`; an empty string if it is one.
-template <class T>
-std::string refuseName(const std::string& word, const std::map<std::string, T>& values) {
-  if (values.count(word) > 0) return "";
-  return word + " is none of " + choiceOf(values) + didYouMean(word, namesIn(values));
+/// The message for a word that is none of the known ones; an empty string if it is one.
+inline std::string refuseName(const std::string& word, const std::vector<std::string>& known) {
+  const bool is_known = std::find(known.begin(), known.end(), word) != known.end();
+  return is_known ? "" : noneOf(word, known, "|");
 }
 
 /// Adds an option that takes one of the names in `values`. The target may be std::optional.
@@ -62,13 +63,31 @@ template <class Target, class T>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, Target& target, const std::map<std::string, T>& values,
                        const std::string& help) {
   const auto set = [&target, &values](const std::string& key) { target = values.at(key); };
-  const auto check = [&values](const std::string& key) { return refuseName(key, values); };
-  return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(choiceOf(values));
+  const std::vector<std::string> known = namesIn(values);
+  const auto check = [known](const std::string& key) { return refuseName(key, known); };
+  return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(joined(known, "|"));
 }
 
 /// Check of a path: the message if it is empty, otherwise an empty string.
 inline std::string notEmpty(const std::string& path) {
   return path.empty() ? "must not be empty" : "";
+}
+
+/// An option's name, and the type of its value that the help shows, from "--name TYPE"; without a type CLI11's own.
+struct TypedName {
+  explicit TypedName(const std::string& text) : name(text.substr(0, text.find(' '))) {
+    if (name.size() < text.size()) type = text.substr(name.size() + 1);
+  }
+  CLI::Option* on(CLI::Option* option) const { return type.empty() ? option : option->type_name(type); }
+  std::string name, type;
+};
+
+/// Adds an option that takes a text, such as a path, which must not be empty.
+/// @param name with the type of the value, such as "--handles TEXT"
+template <class Target>
+CLI::Option* addText(CLI::App& app, const std::string& name, Target& target, const std::string& help) {
+  const TypedName typed(name);
+  return typed.on(app.add_option(typed.name, target, help)->check(notEmpty));
 }
 
 /// Splits a list at its commas.
@@ -121,6 +140,15 @@ auto forOption(const std::string& option, const Work& work) {
   }
 }
 
+/// Parses a whole word as a number.
+/// @return whether it is one
+template <class T>
+bool parseNumber(const std::string& word, T& number) {
+  const char* const word_end = word.data() + word.size();
+  const auto [end, error] = std::from_chars(word.data(), word_end, number);
+  return error == std::errc() && end == word_end;
+}
+
 /// The text of a range for messages; the least and the greatest double stand for 0 and infinity.
 template <class T>
 std::string rangeText(T least, T most) {
@@ -134,20 +162,19 @@ std::string rangeText(T least, T most) {
 }
 
 /// Adds an option that takes a number in [least, most].
+/// @param name with the type of the value, such as "--count K"
 template <class T, class Target>
 CLI::Option* addNumber(CLI::App& app, const std::string& name, Target& target, T least, T most,
                        const std::string& help) {
   const auto parse = [least, most](const std::string& text) -> std::optional<T> {
     T value = {};
-    const char* const text_end = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), text_end, value);
-    const bool valid = error == std::errc() && end == text_end && value >= least && value <= most;
-    return valid ? std::optional<T>(value) : std::nullopt;
+    return parseNumber(text, value) && value >= least && value <= most ? std::optional(value) : std::nullopt;
   };
   const auto check = [parse, least, most](const std::string& text) {
     if (parse(text)) return std::string();
     return text + " is not " + (std::is_integral_v<T> ? "an integer" : "a number") + " in " + rangeText(least, most);
   };
   const auto set = [&target, parse](const std::string& text) { target = parse(text).value(); };
-  return app.add_option_function<std::string>(name, set, help)->check(check);
+  const TypedName typed(name);
+  return typed.on(app.add_option_function<std::string>(typed.name, set, help)->check(check));
 }

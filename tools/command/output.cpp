@@ -8,22 +8,14 @@
 #include "tufted/io/write.h"
 
 void addOut(CLI::App& command, std::filesystem::path& out) {
-  command.add_option("-o,--out", out, "Folder for the results, created if missing")
-      ->required()
-      ->check(notEmpty)
-      ->type_name("DIR");
+  addText(command, "-o,--out DIR", out, "Folder for the results, created if missing")->required();
 }
 
 void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
                 const std::map<std::string, tufted::Format>& formats, const std::string& help) {
   std::vector<std::string> known = namesIn(formats);
   known.emplace_back("none");
-  const auto check = [known](const std::string& key) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) return std::string();
-    std::string all;
-    for (const std::string& name : known) all += (all.empty() ? "" : "|") + name;
-    return key + " is none of " + all + didYouMean(key, known);
-  };
+  const auto check = [known](const std::string& key) { return refuseName(key, known); };
   const auto set = [&target, formats](const std::vector<std::string>& keys) {
     target.clear();
     if (keys.size() == 1 && keys[0] == "none") return;

@@ -1,27 +1,14 @@
-#include <CLI/CLI.hpp>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "command.h"
-#include "moved_points.h"
-#include "operator.h"
-#include "options.h"
-#include "oriented.h"
-#include "point_options.h"
-#include "tufted/errors.h"
+#include "subcommand.h"
 #include "tufted/parameterization.h"
 
-namespace parameterize_command {
 namespace {
 
-constexpr const char* description = "Map the surface to the plane: two coordinates for each point.";
+using tufted::HarmonicWeights;
+using tufted::ParameterizationMethod;
 
-constexpr const char* footer =
-    R"(Examples:
+struct Parameterize : Subcommand {
+  explicit Parameterize(CLI::App& app)
+      : Subcommand(app, "parameterize", "Map the surface to the plane: two coordinates for each point.", R"(Examples:
   tufted parameterize open.off --out map
   tufted parameterize open.off --method harmonic --weights mean-value --out disc
   tufted parameterize mesh.off --cut seam.txt --out opened
@@ -42,148 +29,133 @@ Files in DIR, which replace older ones when all are complete:
                  several places, of which uv.npy has one
   points.ply     the points with the field uv, float32; points.pcd with --format pcd
   report.json    method, charts, rims, flipped and collapsed triangles, quasi_conformal_error (1 where all angles are
-                 kept), residual, seconds
-`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --format npz,ply,cover --out DIR` wrote: clouds
-need the cover, and meshes only their triangles in points.ply.)";
+                 kept), residual, seconds)",
+                   R"(--format npz,ply,cover --out DIR` wrote: clouds
+need the cover, and meshes only their triangles in points.ply.)") {
+    cover = CoverUse::clouds;
+    addChoice(command, "--method", options.method, methods,
+              "conformal: keeps angles, free rim; harmonic: rim on a circle or as in --rim (conformal)");
+    addChoice(command, "--weights", options.weights, weights,
+              "With --method harmonic: weights of L, or mean-value weights, which flip no triangle (laplacian)");
+    CLI::Option* const rim_option =
+        addText(command, "--rim TEXT", rim,
+                "With --method harmonic: text file of the points of the rim in order, lines INDEX or INDEX U V");
+    addText(command, "--cut TEXT", cut, "Text file of paths along edges to cut, a line of indices for each")
+        ->excludes(rim_option);
+  }
 
-using tufted::HarmonicWeights;
-using tufted::ParameterizationMethod;
+  static inline const std::map<std::string, ParameterizationMethod> methods = {
+      {"conformal", ParameterizationMethod::conformal}, {"harmonic", ParameterizationMethod::harmonic}};
+  static inline const std::map<std::string, HarmonicWeights> weights = {{"laplacian", HarmonicWeights::laplacian},
+                                                                        {"mean-value", HarmonicWeights::mean_value}};
 
-const std::map<std::string, ParameterizationMethod> methods = {{"conformal", ParameterizationMethod::conformal},
-                                                               {"harmonic", ParameterizationMethod::harmonic}};
-const std::map<std::string, HarmonicWeights> weights = {{"laplacian", HarmonicWeights::laplacian},
-                                                        {"mean-value", HarmonicWeights::mean_value}};
+  void check(const Operator& source) override {
+    checkPositions(source);
+    const bool is_harmonic = options.method == ParameterizationMethod::harmonic;
+    if (!is_harmonic && options.weights != HarmonicWeights::laplacian)
+      throw tufted::InvalidInput("--weights needs --method harmonic");
+    cuts.clear();
+    if (!cut.empty()) {
+      if (is_harmonic && options.weights == HarmonicWeights::laplacian)
+        throw tufted::InvalidInput("--cut with --method harmonic needs --weights mean-value, as L has no cuts");
+      for (const Row& row : readRows(cut)) {
+        std::vector<int>& path = cuts.emplace_back();
+        for (const double number : row.numbers) path.push_back(placeOf({number}, source, row.name).index);
+        if (path.size() < 2) throw tufted::IoError(row.name + ": has 1 index, must have at least 2");
+      }
+    }
+    if (rim.empty()) return;
+    if (!is_harmonic) throw tufted::InvalidInput("--rim needs --method harmonic");
+    options.rim.clear();
+    std::vector<double> values;
+    for (const Row& row : readRows(rim)) {
+      const std::size_t count = row.numbers.size();
+      if (count != 1 && count != 3) throw tufted::IoError(row.name + ": is not INDEX or INDEX U V");
+      options.rim.push_back(indexOf({row.name, {row.numbers[0]}}, source));
+      values.insert(values.end(), row.numbers.begin() + 1, row.numbers.end());
+      if (!values.empty() && values.size() != 2 * options.rim.size())
+        throw tufted::IoError(row.name + ": has " + std::to_string(count) + " numbers, must have as many as the first");
+    }
+    if (options.rim.size() < 3)
+      throw tufted::IoError(rim.string() + ": has " + std::to_string(options.rim.size()) +
+                            " points, must have at least 3");
+    options.rim_positions.resize(static_cast<Eigen::Index>(values.size() / 2), 2);
+    for (Eigen::Index k = 0; k < options.rim_positions.size(); ++k) options.rim_positions(k / 2, k % 2) = values[k];
+    if (!options.rim_positions.allFinite()) throw tufted::IoError(rim.string() + ": a position is not finite, must be");
+  }
 
-struct Settings {
-  OperatorSettings source;
+  Results compute(Operator& source) override {
+    Results results;
+    options.solver = source.solverOptions();
+    const tufted::Triangles triangles = trianglesOf(source);
+    tufted::ParameterizationReport made;
+    Eigen::MatrixX2d uv, corners;
+    blameSurface(source, [&] {
+      if (cut.empty())
+        uv = tufted::parameterize(source.laplacian, triangles, options, &made);
+      else
+        corners = tufted::parameterizeCut(source.laplacian, triangles, cuts, options, &made);
+    });
+    if (!cut.empty()) {
+      uv.setConstant(source.points(), 2, std::numeric_limits<double>::quiet_NaN());
+      for (Eigen::Index c = 0; c < corners.rows(); ++c)
+        if (corners.row(c).allFinite()) uv.row(triangles(c / 3, c % 3)) = corners.row(c);
+      for (Eigen::Index i = 0; i < uv.rows(); ++i) uv.row(i) = uv.row(source.laplacian.representative[i]).eval();
+    }
+    const bool is_harmonic = options.method == ParameterizationMethod::harmonic;
+    const char* const method = !is_harmonic                                     ? "conformal"
+                               : options.weights == HarmonicWeights::mean_value ? "harmonic, mean values"
+                                                                                : "harmonic";
+    results.report["report"] = {{"method", method},
+                                {"charts", made.charts},
+                                {"closed", made.closed},
+                                {"nonorientable", made.nonorientable},
+                                {"collapsed_charts", made.collapsed_charts},
+                                {"cut", made.cut},
+                                {"nonmanifold", made.nonmanifold},
+                                {"rims", made.rims},
+                                {"shared_points", made.shared_points},
+                                {"not_mapped", made.not_mapped},
+                                {"triangles", made.triangles},
+                                {"flipped", made.flipped},
+                                {"collapsed", made.collapsed},
+                                {"quasi_conformal_error", made.quasi_conformal_error},
+                                {"iterations", made.iterations},
+                                {"residual", made.residual},
+                                {"solver", made.solver_method},
+                                {"seconds", made.seconds}};
+    results.summary.add("charts", "%lld, with %lld rims", static_cast<long long>(made.charts),
+                        static_cast<long long>(made.rims));
+    results.summary.add("triangles", "%lld, %lld flipped, %lld collapsed", static_cast<long long>(made.triangles),
+                        static_cast<long long>(made.flipped), static_cast<long long>(made.collapsed));
+    results.summary.add("angles", "quasi-conformal error %.4f, 1 where they are kept", made.quasi_conformal_error);
+    results.summary.add("not mapped", "%lld points, which are NaN", static_cast<long long>(made.not_mapped));
+    if (made.collapsed > 0)
+      results.warnings.push_back(std::to_string(made.collapsed) +
+                                 " triangles are lower in the plane than 1e-7 of the map");
+    if (made.collapsed_charts > 0)
+      results.warnings.push_back(std::to_string(made.collapsed_charts) +
+                                 " parts are too long for their rims and are not mapped; cut them open");
+    results.arrays = {{.name = "uv", .values = uv}};
+    if (!cut.empty()) {
+      Eigen::MatrixXd table(triangles.rows(), 6);
+      for (Eigen::Index c = 0; c < corners.rows(); ++c) table.row(c / 3).segment<2>(2 * (c % 3)) = corners.row(c);
+      results.arrays.push_back({.name = "corner_uv", .values = std::move(table), .per_point = false});
+    }
+    return results;
+  }
+
   std::filesystem::path rim, cut;
   std::vector<std::vector<int>> cuts;
   tufted::ParameterizationOptions options;
 
-  std::vector<std::string> files() const {
+  std::vector<std::string> files() const override {
     return cut.empty() ? std::vector<std::string>{"uv.npy"} : std::vector<std::string>{"uv.npy", "corner_uv.npy"};
   }
 };
 
-void check(Settings& settings, const Operator& source) {
-  checkPositions(source);
-  tufted::ParameterizationOptions& options = settings.options;
-  const bool is_harmonic = options.method == ParameterizationMethod::harmonic;
-  if (!is_harmonic && options.weights != HarmonicWeights::laplacian)
-    throw tufted::InvalidInput("--weights needs --method harmonic");
-  settings.cuts.clear();
-  if (!settings.cut.empty()) {
-    if (is_harmonic && options.weights == HarmonicWeights::laplacian)
-      throw tufted::InvalidInput("--cut with --method harmonic needs --weights mean-value, as L has no cuts");
-    for (const Row& row : readRows(settings.cut)) {
-      std::vector<int>& path = settings.cuts.emplace_back();
-      for (const double number : row.numbers) path.push_back(placeOf({number}, source, row.name).index);
-      if (path.size() < 2) throw tufted::IoError(row.name + ": has 1 index, must have at least 2");
-    }
-  }
-  if (settings.rim.empty()) return;
-  if (!is_harmonic) throw tufted::InvalidInput("--rim needs --method harmonic");
-  options.rim.clear();
-  std::vector<double> values;
-  for (const Row& row : readRows(settings.rim)) {
-    const std::size_t count = row.numbers.size();
-    if (count != 1 && count != 3) throw tufted::IoError(row.name + ": is not INDEX or INDEX U V");
-    options.rim.push_back(indexOf({row.name, {row.numbers[0]}}, source));
-    values.insert(values.end(), row.numbers.begin() + 1, row.numbers.end());
-    if (!values.empty() && values.size() != 2 * options.rim.size())
-      throw tufted::IoError(row.name + ": has " + std::to_string(count) + " numbers, must have as many as the first");
-  }
-  if (options.rim.size() < 3)
-    throw tufted::IoError(settings.rim.string() + ": has " + std::to_string(options.rim.size()) +
-                          " points, must have at least 3");
-  options.rim_positions.resize(static_cast<Eigen::Index>(values.size() / 2), 2);
-  for (Eigen::Index k = 0; k < options.rim_positions.size(); ++k) options.rim_positions(k / 2, k % 2) = values[k];
-  if (!options.rim_positions.allFinite())
-    throw tufted::IoError(settings.rim.string() + ": a position is not finite, must be");
-}
-
-Results compute(Settings& settings, Operator& source) {
-  Results results;
-  settings.options.solver = source.solverOptions();
-  const tufted::Triangles triangles = trianglesOf(source);
-  tufted::ParameterizationReport made;
-  Eigen::MatrixX2d uv, corners;
-  blameSurface(source, [&] {
-    if (settings.cut.empty())
-      uv = tufted::parameterize(source.laplacian, triangles, settings.options, &made);
-    else
-      corners = tufted::parameterizeCut(source.laplacian, triangles, settings.cuts, settings.options, &made);
-  });
-  if (!settings.cut.empty()) {
-    uv.setConstant(source.points(), 2, std::numeric_limits<double>::quiet_NaN());
-    for (Eigen::Index c = 0; c < corners.rows(); ++c)
-      if (corners.row(c).allFinite()) uv.row(triangles(c / 3, c % 3)) = corners.row(c);
-    for (Eigen::Index i = 0; i < uv.rows(); ++i) uv.row(i) = uv.row(source.laplacian.representative[i]).eval();
-  }
-  const bool is_harmonic = settings.options.method == ParameterizationMethod::harmonic;
-  const char* const method = !is_harmonic                                              ? "conformal"
-                             : settings.options.weights == HarmonicWeights::mean_value ? "harmonic, mean values"
-                                                                                       : "harmonic";
-  results.report["report"] = {{"method", method},
-                              {"charts", made.charts},
-                              {"closed", made.closed},
-                              {"nonorientable", made.nonorientable},
-                              {"collapsed_charts", made.collapsed_charts},
-                              {"cut", made.cut},
-                              {"nonmanifold", made.nonmanifold},
-                              {"rims", made.rims},
-                              {"shared_points", made.shared_points},
-                              {"not_mapped", made.not_mapped},
-                              {"triangles", made.triangles},
-                              {"flipped", made.flipped},
-                              {"collapsed", made.collapsed},
-                              {"quasi_conformal_error", made.quasi_conformal_error},
-                              {"iterations", made.iterations},
-                              {"residual", made.residual},
-                              {"solver", made.solver_method},
-                              {"seconds", made.seconds}};
-  results.summary.add("charts", "%lld, with %lld rims", static_cast<long long>(made.charts),
-                      static_cast<long long>(made.rims));
-  results.summary.add("triangles", "%lld, %lld flipped, %lld collapsed", static_cast<long long>(made.triangles),
-                      static_cast<long long>(made.flipped), static_cast<long long>(made.collapsed));
-  results.summary.add("angles", "quasi-conformal error %.4f, 1 where they are kept", made.quasi_conformal_error);
-  results.summary.add("not mapped", "%lld points, which are NaN", static_cast<long long>(made.not_mapped));
-  if (made.collapsed > 0)
-    results.warnings.push_back(std::to_string(made.collapsed) +
-                               " triangles are lower in the plane than 1e-7 of the map");
-  if (made.collapsed_charts > 0)
-    results.warnings.push_back(std::to_string(made.collapsed_charts) +
-                               " parts are too long for their rims and are not mapped; cut them open");
-  results.arrays = {{.name = "uv", .values = uv}};
-  if (!settings.cut.empty()) {
-    Eigen::MatrixXd table(triangles.rows(), 6);
-    for (Eigen::Index c = 0; c < corners.rows(); ++c) table.row(c / 3).segment<2>(2 * (c % 3)) = corners.row(c);
-    results.arrays.push_back({.name = "corner_uv", .values = std::move(table), .per_point = false});
-  }
-  return results;
-}
-
 }  // namespace
-}  // namespace parameterize_command
 
 void addParameterize(CLI::App& app, Run& run) {
-  using namespace parameterize_command;
-  const auto [command, settings] =
-      addOperatorCommand<Settings>(app, run, "parameterize", description, footer, compute, check);
-  settings->source.cover = CoverUse::clouds;
-  addChoice(*command, "--method", settings->options.method, methods,
-            "conformal: keeps angles, free rim; harmonic: rim on a circle or as in --rim (conformal)");
-  addChoice(*command, "--weights", settings->options.weights, weights,
-            "With --method harmonic: weights of L, or mean-value weights, which flip no triangle (laplacian)");
-  CLI::Option* const rim =
-      command
-          ->add_option("--rim", settings->rim,
-                       "With --method harmonic: text file of the points of the rim in order, lines INDEX or INDEX U V")
-          ->check(notEmpty)
-          ->type_name("TEXT");
-  command->add_option("--cut", settings->cut, "Text file of paths along edges to cut, a line of indices for each")
-      ->check(notEmpty)
-      ->excludes(rim)
-      ->type_name("TEXT");
+  addSubcommand<Parameterize>(app, run);
 }

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "options.h"
-#include "taking_part.h"
+#include "point_options.h"
 #include "tufted/errors.h"
 
 namespace {
@@ -41,14 +41,9 @@ void addPinOptions(CLI::App& command, PinOptions& options) {
           "Pin: the value (V1,V2,... for several) at a point, or at the point nearest to a position; may be repeated")
       ->allow_extra_args(false)
       ->type_name("INDEX=V|X,Y,Z=V");
-  command.add_option("--pins", options.by_index, "Text file of pins, lines INDEX V1 V2 ...")
-      ->check(notEmpty)
-      ->type_name("TEXT");
-  command
-      .add_option("--pins-near", options.by_position,
-                  "Text file of pins at the points nearest to positions, lines X Y Z V1 V2 ...")
-      ->check(notEmpty)
-      ->type_name("TEXT");
+  addText(command, "--pins TEXT", options.by_index, "Text file of pins, lines INDEX V1 V2 ...");
+  addText(command, "--pins-near TEXT", options.by_position,
+          "Text file of pins at the points nearest to positions, lines X Y Z V1 V2 ...");
 }
 
 PlacedPins placePins(const PinOptions& options, const Operator& source) {

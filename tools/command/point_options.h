@@ -76,3 +76,12 @@ void addFaceOption(CLI::App& command, std::vector<std::string>& faces, const std
 
 /// Adds --source I,J,... and --near X,Y,Z, which may be repeated, and --sources TEXT.
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what);
+
+/// Notes in the results which of the named points take no part, and why: a warning, a line of the summary, and
+/// `left_out` in the report.
+/// @param others whether the user also named something else that may take part
+/// @throws InvalidInput if none of the points takes part and there are no others
+void noteLeftOut(const std::vector<int>& points, const Operator& source, Results& results, bool others = false);
+
+/// @throws InvalidInput for a point that takes no part, naming it and why
+void requireTakingPart(const std::vector<int>& points, const Operator& source);

@@ -40,3 +40,6 @@ std::vector<tufted::SceneField> fieldsOf(const tufted::Geometry& geometry);
 /// the fields of the file. Points that take no part have no value. An array `path` is drawn as a line.
 tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry, const tufted::Laplacian& laplacian,
                       const std::vector<tufted::ResultArray>& arrays);
+
+/// The values of a field of `points` points, a row for each; of a packed colour its red, green and blue.
+Eigen::MatrixXd valuesOf(const tufted::Field& field, Eigen::Index points);

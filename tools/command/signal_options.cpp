@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <system_error>
 
-#include "field_values.h"
 #include "options.h"
+#include "scene_fields.h"
 #include "tufted/errors.h"
 
 namespace {
@@ -48,9 +48,7 @@ void addSignalOptions(CLI::App& command, SignalOptions& options, const std::stri
   const auto any = [](const std::string&) { return std::string(); };  // the file is not read yet
   const auto set = [&options](const std::vector<std::string>& names) { options.fields = names; };
   addList(command, "--field", what + ": fields of the file, separated by commas", any, set)->type_name("NAME,...");
-  command.add_option("--values", options.values, what + ": .npy file of N values, or N x c for c columns")
-      ->check(notEmpty)
-      ->type_name("NPY");
+  addText(command, "--values NPY", options.values, what + ": .npy file of N values, or N x c for c columns");
 }
 
 MatrixXd readSignals(const SignalOptions& options, const Operator& source) {

@@ -1,29 +1,12 @@
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "command.h"
-#include "moved_points.h"
-#include "operator.h"
-#include "options.h"
-#include "oriented.h"
-#include "point_options.h"
-#include "reports.h"
-#include "taking_part.h"
-#include "time_step.h"
-#include "tufted/errors.h"
+#include "subcommand.h"
 #include "tufted/signed_distance.h"
 
-namespace signed_distance_command {
 namespace {
 
-constexpr const char* description = "Compute the distance from curves on the surface, positive on their left.";
-
-constexpr const char* footer =
-    R"(Examples:
+struct SignedDistance : Subcommand {
+  explicit SignedDistance(CLI::App& app)
+      : Subcommand(app, "signed-distance", "Compute the distance from curves on the surface, positive on their left.",
+                   R"(Examples:
   tufted signed-distance mesh.off --curve curve.txt --out signed
   tufted signed-distance mesh.off --curve curve.txt --source 3 --method marching --out signed
 
@@ -42,15 +25,101 @@ Files in DIR, which replace older ones when all are complete:
   distance.npy  N distances, float64, in the unit of FILE; NaN on components without a source, and at points that take
                 no part
   points.ply    the points with the field distance, float32; points.pcd with --format pcd
-  report.json   method, points and length of the curves, counts of the query, residual, seconds
-`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --out DIR` wrote, for marching with --format npz,ply,cover.)";
+  report.json   method, points and length of the curves, counts of the query, residual, seconds)",
+                   R"(--out DIR` wrote, for marching with --format npz,ply,cover.)") {
+    addOrienting(command, orienting);
+    addText(command, "--curve TEXT", files_of_curves,
+            "Text file of the places along a curve in order, lines INDEX or FACE A B C; may be repeated")
+        ->allow_extra_args(false);
+    addPointOptions(command, points, "With --method marching: further sources without a side");
+    addFaceOption(command, faces, "With --method marching: further source without a side");
+    addChoice(command, "--method", options.method, methods,
+              "heat: smooth, also across gaps; marching: lengths of shortest paths (heat)")
+        ->each([this](const std::string& method) { cover = method == "marching" ? CoverUse::all : CoverUse::none; });
+    addNumber(command, "--split TIMES", options.split, 0, 2,
+              "With --method marching: how often each triangle is divided into four (2 up to 5,000 points, else 1)");
+    addTimeStep(command, time_step,
+                "With --method heat: time step in mean squared edges; larger values bridge wider gaps (4)");
+  }
 
-const std::map<std::string, tufted::DistanceMethod> methods = {{"marching", tufted::DistanceMethod::marching},
-                                                               {"heat", tufted::DistanceMethod::heat}};
+  static inline const std::map<std::string, tufted::DistanceMethod> methods = {
+      {"marching", tufted::DistanceMethod::marching}, {"heat", tufted::DistanceMethod::heat}};
 
-struct Settings {
-  OperatorSettings source;
+  /// @throws InvalidInput for options of the other method
+  void checkMethod() const {
+    const bool has_points =
+        !points.indices.empty() || !points.positions.empty() || !points.file.empty() || !faces.empty();
+    if (isHeat() && has_points)
+      throw tufted::InvalidInput("--source, --near, --sources and --face apply to --method marching");
+    if (isHeat() && options.split) throw tufted::InvalidInput("--split applies to --method marching");
+    if (!isHeat() && time_step) throw tufted::InvalidInput("--time-step applies to --method heat");
+    if (files_of_curves.empty() && !has_points)
+      throw tufted::InvalidInput("no curve is given, must be at least one by --curve");
+  }
+
+  /// The place in a line of a file.
+  static tufted::SurfacePoint placeOn(const Row& row, const Operator& source) {
+    if (row.numbers.size() == 1) return tufted::SurfacePoint::vertex(indexOf(row, source));
+    if (row.numbers.size() != 4) throw tufted::IoError(row.name + ": is neither INDEX nor FACE A B C");
+    requireMesh(row.name + ": a place in a triangle", source);
+    return pointInFace(row.numbers, row.name, source);
+  }
+
+  void check(const Operator& source) override {
+    checkMethod();
+    shown = {{"signed_distance"}};
+    checkFrames(source);
+    for (const std::filesystem::path& file : files_of_curves) {
+      tufted::SurfaceCurve& curve = curves.emplace_back();
+      for (const Row& row : readRows(file)) curve.push_back(placeOn(row, source));
+      if (curve.size() < 2)
+        throw tufted::IoError(file.string() + ": has " + std::to_string(curve.size()) +
+                              " points, must have at least 2");
+    }
+    places = points.places(source);
+    inside = pointsInFaces(faces, source);
+    if (!isHeat()) stages = {{"faces", 26, 2}, {"edges", 3}, {"march", 18}};
+  }
+
+  Results compute(Operator& source) override {
+    Results results;
+    std::vector<tufted::SurfacePoint> others;
+    const std::vector<int> sources = locate(places, source, results);
+    for (const int point : sources) others.push_back(tufted::SurfacePoint::vertex(point));
+    others.insert(others.end(), inside.begin(), inside.end());
+    std::vector<int> named = sources;
+    bool has_others = !inside.empty();
+    for (const tufted::SurfaceCurve& curve : curves) {
+      for (const tufted::SurfacePoint& place : curve) {
+        const bool is_point = place.corners[0] == place.corners[1];
+        if (is_point) named.push_back(place.corners[0]);
+        has_others |= !is_point;
+      }
+    }
+    noteLeftOut(named, source, results, has_others);
+    options.solver = source.solverOptions();
+    if (time_step) options.time_step = *time_step;
+    const tufted::SignedDistanceSolver solver(source.laplacian, orientedFrames(orienting, source, results), options);
+    checkTimeStep(time_step, solver.timeStep(), source);
+    tufted::SignedDistanceReport made;
+    const Eigen::VectorXd distance =
+        blameSurface(source, [&] { return solver.queryAt(curves, others, &made, source.progress); });
+    results.report["method"] = isHeat() ? "heat" : "marching";
+    results.report["curve"] = {{"points", made.curve_points}, {"length", made.curve_length}};
+    results.summary.add(curves.size() > 1 ? "curves" : "curve", "%lld points, length %.6g",
+                        static_cast<long long>(made.curve_points), made.curve_length);
+    made.heat.residual = std::max(made.heat.residual, made.residual);
+    if (isHeat())
+      addReport(made.heat, solver.report(), results);
+    else
+      addReport(made.march, solver.report(), results);
+    results.summary.add("not reached", "%lld points, which are NaN",
+                        static_cast<long long>(distance.array().isNaN().count()));
+    results.arrays = {{.name = "distance", .values = distance}};
+    results.shown = {{.name = "signed_distance", .values = distance}};
+    return results;
+  }
+
   Orienting orienting;
   std::vector<std::filesystem::path> files_of_curves;
   NamedPoints points;
@@ -62,109 +131,11 @@ struct Settings {
   std::vector<tufted::SurfacePoint> inside;  ///< further sources inside faces
 
   bool isHeat() const { return options.method == tufted::DistanceMethod::heat; }
-  std::vector<std::string> files() const { return {"distance.npy"}; }
+  std::vector<std::string> files() const override { return {"distance.npy"}; }
 };
 
-/// @throws InvalidInput for options of the other method
-void checkMethod(const Settings& settings) {
-  const NamedPoints& points = settings.points;
-  const bool has_points =
-      !points.indices.empty() || !points.positions.empty() || !points.file.empty() || !settings.faces.empty();
-  if (settings.isHeat() && has_points)
-    throw tufted::InvalidInput("--source, --near, --sources and --face apply to --method marching");
-  if (settings.isHeat() && settings.options.split) throw tufted::InvalidInput("--split applies to --method marching");
-  if (!settings.isHeat() && settings.time_step) throw tufted::InvalidInput("--time-step applies to --method heat");
-  if (settings.files_of_curves.empty() && !has_points)
-    throw tufted::InvalidInput("no curve is given, must be at least one by --curve");
-}
-
-/// The place in a line of a file.
-tufted::SurfacePoint placeOn(const Row& row, const Operator& source) {
-  if (row.numbers.size() == 1) return tufted::SurfacePoint::vertex(indexOf(row, source));
-  if (row.numbers.size() != 4) throw tufted::IoError(row.name + ": is neither INDEX nor FACE A B C");
-  requireMesh(row.name + ": a place in a triangle", source);
-  return pointInFace(row.numbers, row.name, source);
-}
-
-void check(Settings& settings, const Operator& source) {
-  checkMethod(settings);
-  settings.source.shown = {{"signed_distance"}};
-  checkFrames(source);
-  for (const std::filesystem::path& file : settings.files_of_curves) {
-    tufted::SurfaceCurve& curve = settings.curves.emplace_back();
-    for (const Row& row : readRows(file)) curve.push_back(placeOn(row, source));
-    if (curve.size() < 2)
-      throw tufted::IoError(file.string() + ": has " + std::to_string(curve.size()) + " points, must have at least 2");
-  }
-  settings.places = settings.points.places(source);
-  settings.inside = pointsInFaces(settings.faces, source);
-  if (!settings.isHeat()) settings.source.stages = {{"faces", 26, 2}, {"edges", 3}, {"march", 18}};
-}
-
-Results compute(Settings& settings, Operator& source) {
-  Results results;
-  std::vector<tufted::SurfacePoint> points;
-  const std::vector<int> sources = locate(settings.places, source, results);
-  for (const int point : sources) points.push_back(tufted::SurfacePoint::vertex(point));
-  points.insert(points.end(), settings.inside.begin(), settings.inside.end());
-  std::vector<int> named = sources;
-  bool has_others = !settings.inside.empty();
-  for (const tufted::SurfaceCurve& curve : settings.curves) {
-    for (const tufted::SurfacePoint& place : curve) {
-      const bool is_point = place.corners[0] == place.corners[1];
-      if (is_point) named.push_back(place.corners[0]);
-      has_others |= !is_point;
-    }
-  }
-  noteLeftOut(named, source, results, has_others);
-  settings.options.solver = source.solverOptions();
-  if (settings.time_step) settings.options.time_step = *settings.time_step;
-  const tufted::SignedDistanceSolver solver(source.laplacian, orientedFrames(settings.orienting, source, results),
-                                            settings.options);
-  checkTimeStep(settings.time_step, solver.timeStep(), source);
-  tufted::SignedDistanceReport made;
-  const Eigen::VectorXd distance =
-      blameSurface(source, [&] { return solver.queryAt(settings.curves, points, &made, source.progress); });
-  results.report["method"] = settings.isHeat() ? "heat" : "marching";
-  results.report["curve"] = {{"points", made.curve_points}, {"length", made.curve_length}};
-  results.summary.add(settings.curves.size() > 1 ? "curves" : "curve", "%lld points, length %.6g",
-                      static_cast<long long>(made.curve_points), made.curve_length);
-  made.heat.residual = std::max(made.heat.residual, made.residual);
-  if (settings.isHeat())
-    addReport(made.heat, solver.report(), results);
-  else
-    addReport(made.march, solver.report(), results);
-  results.summary.add("not reached", "%lld points, which are NaN",
-                      static_cast<long long>(distance.array().isNaN().count()));
-  results.arrays = {{.name = "distance", .values = distance}};
-  results.shown = {{.name = "signed_distance", .values = distance}};
-  return results;
-}
-
 }  // namespace
-}  // namespace signed_distance_command
 
 void addSignedDistance(CLI::App& app, Run& run) {
-  using namespace signed_distance_command;
-  const auto [command, settings] =
-      addOperatorCommand<Settings>(app, run, "signed-distance", description, footer, compute, check);
-  addOrienting(*command, settings->orienting);
-  command
-      ->add_option("--curve", settings->files_of_curves,
-                   "Text file of the places along a curve in order, lines INDEX or FACE A B C; may be repeated")
-      ->allow_extra_args(false)
-      ->check(notEmpty)
-      ->type_name("TEXT");
-  addPointOptions(*command, settings->points, "With --method marching: further sources without a side");
-  addFaceOption(*command, settings->faces, "With --method marching: further source without a side");
-  addChoice(*command, "--method", settings->options.method, methods,
-            "heat: smooth, also across gaps; marching: lengths of shortest paths (heat)")
-      ->each([settings = settings.get()](const std::string& method) {
-        settings->source.cover = method == "marching" ? CoverUse::all : CoverUse::none;
-      });
-  addNumber(*command, "--split", settings->options.split, 0, 2,
-            "With --method marching: how often each triangle is divided into four (2 up to 5,000 points, else 1)")
-      ->type_name("TIMES");
-  addTimeStep(*command, settings->time_step,
-              "With --method heat: time step in mean squared edges; larger values bridge wider gaps (4)");
+  addSubcommand<SignedDistance>(app, run);
 }

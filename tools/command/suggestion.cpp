@@ -53,3 +53,13 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
   }
   return nearest == nullptr ? "" : "; did you mean `" + *nearest + "`?";
 }
+
+std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : separator) + word;
+  return all;
+}
+
+std::string noneOf(const std::string& word, const std::vector<std::string>& known, const std::string& separator) {
+  return word + " is none of " + joined(known, separator) + didYouMean(word, known);
+}

@@ -7,3 +7,9 @@
 /// @param word the word typed; its case and leading dashes do not count
 /// @param known all valid words
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known);
+
+/// The words with `separator` between them.
+std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
+
+/// The message for a word that is none of the known ones, which it lists.
+std::string noneOf(const std::string& word, const std::vector<std::string>& known, const std::string& separator = ", ");

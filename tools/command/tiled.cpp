@@ -10,10 +10,10 @@
 
 #include "bytes.h"
 #include "command.h"
+#include "console.h"
 #include "interrupt.h"
 #include "options.h"
 #include "output.h"
-#include "peak_memory.h"
 #include "progress_bar.h"
 #include "summary.h"
 #include "tufted/errors.h"
@@ -47,19 +47,13 @@ tufted::TileOptions optionsOf(const Tiled& tiled, const Build& build) {
 }  // namespace
 
 void addTiled(CLI::App& command, Tiled& tiled) {
+  const auto set = [&tiled](std::size_t bytes, const std::string& text) {
+    tiled.memory = static_cast<double>(bytes);
+    tiled.memory_text = text;
+  };
   CLI::Option* const memory =
-      command
-          .add_option_function<std::string>(
-              "--memory",
-              [&tiled](const std::string& size) {
-                tiled.memory = static_cast<double>(parseBytes(size).value());
-                tiled.memory_text = size;
-              },
-              "Build the cloud by tiles that fit in this much memory, such as 4G; writes other files, see below")
-          ->check([](const std::string& size) {
-            return parseBytes(size) ? std::string() : size + " is not a size such as 4G or 500M";
-          })
-          ->type_name("SIZE");
+      addBytes(command, "--memory", set,
+               "Build the cloud by tiles that fit in this much memory, such as 4G; writes other files, see below");
   command.add_flag("--keep-noise", tiled.keeps_noise, "Do not move noisy points onto the surface; only with --memory")
       ->needs(memory);
 }
@@ -101,7 +95,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
     counts.not_finite = report.not_finite;
     counts.coincident = report.coincident;
     counts.isolated = report.isolated;
-    for (const std::string& line : warningsOf(input.name(), counts)) notes.push_back(line);
+    for (const std::string& line : tufted::warnings(counts)) notes.push_back(input.name() + ": " + line);
   }
   for (const std::string& note : notes) warn(bar, note);
   Summary summary;
@@ -113,8 +107,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
               report.builds - report.tiles);
   summary.add("area", "%.10g, the sum of M", report.area);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  summary.add("took", "%.3g s, peak memory %.0f MB", seconds.count(), peakMemory());
-  summary.add("written to", "%s", out.c_str());
+  addEnd(seconds.count(), out, summary);
   sayResults(console, summary, out, notes);
   return exit_done;
 }

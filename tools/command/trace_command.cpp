@@ -1,25 +1,11 @@
-#include <CLI/CLI.hpp>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include "command.h"
-#include "moved_points.h"
-#include "operator.h"
-#include "options.h"
-#include "oriented.h"
-#include "point_options.h"
-#include "taking_part.h"
-#include "tufted/errors.h"
+#include "subcommand.h"
 #include "tufted/tracing.h"
 
-namespace trace_command {
 namespace {
 
-constexpr const char* description = "Follow a straight line along the surface from a point in a direction.";
-
-constexpr const char* footer =
-    R"(Examples:
+struct Trace : Subcommand {
+  explicit Trace(CLI::App& app)
+      : Subcommand(app, "trace", "Follow a straight line along the surface from a point in a direction.", R"(Examples:
   tufted trace scan.ply --source 0 --direction 1,0,0 --length 2 --out line
   tufted trace mesh.off --face 2,1,1,1 --direction 0,0,1 --length 0.5 --out line
 
@@ -36,13 +22,55 @@ Files in DIR, which replace older ones when all are complete:
   lines.svg    a plan of the line to scale, seen from above, y up
   points.ply   the points; points.pcd with --format pcd
   report.json  length, why the line ends (length, rim, branch or crossings), the triangle there, barycentric
-               coordinates in it, and the direction at the end
-`tufted help laplacian` explains FILE and the options of building. --operator DIR reads L and M that
-`tufted laplacian --format npz,ply,cover --out DIR` wrote: clouds
-need the triangles of the cover.)";
+               coordinates in it, and the direction at the end)",
+                   R"(--format npz,ply,cover --out DIR` wrote: clouds
+need the triangles of the cover.)") {
+    cover = CoverUse::clouds;
+    addPointOptions(command, points, "Start");
+    addFaceOption(command, faces, "Start");
+    command.add_option("--direction", direction_text, "Direction in which the line starts, of any length")
+        ->required()
+        ->type_name("X,Y,Z");
+    addNumber(command, "--length D", length, std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
+              "Length of the line, in the unit of FILE")
+        ->required();
+  }
 
-struct Settings {
-  OperatorSettings source;
+  void check(const Operator& source) override {
+    checkFrames(source);
+    places = points.places(source);
+    starts = pointsInFaces(faces, source);
+    if (places.size() + starts.size() != 1)
+      throw tufted::InvalidInput(std::to_string(places.size() + starts.size()) +
+                                 " starts are given, must be one by --source, --near or --face");
+    direction = parsePosition(direction_text, "--direction");
+    if (direction.isZero(0)) throw tufted::InvalidInput("--direction " + direction_text + " has no direction");
+  }
+
+  Results compute(Operator& source) override {
+    Results results;
+    for (const int point : locate(places, source, results)) {
+      requireTakingPart({point}, source);
+      starts = {tufted::SurfacePoint::vertex(point)};
+      results.report["source_point"] = point;
+    }
+    tufted::SurfacePoint start = starts.front();
+    for (int& corner : start.corners) corner = source.laplacian.representative[corner];
+    const tufted::GeodesicTracer tracer(source.laplacian.positions, joinedTriangles(source), framesOf(source));
+    const tufted::TracedLine traced = tracer.query(start, direction, length, source.progress);
+    const char* const reason = tufted::nameOf(traced.reason);
+    results.arrays = {{.name = "path", .values = traced.line.points, .per_point = false}};
+    results.lines = {traced.line};
+    results.report["length"] = traced.line.length;
+    results.report["ended_by"] = reason;
+    results.report["end"] = {{"corners", traced.end.corners}, {"weights", traced.end.weights}};
+    results.report["direction"] = {traced.direction[0], traced.direction[1], traced.direction[2]};
+    results.summary.add("length", "%.6g, %lld points", traced.line.length,
+                        static_cast<long long>(traced.line.points.rows()));
+    results.summary.add("ended by", "%s", reason);
+    return results;
+  }
+
   NamedPoints points;
   std::vector<std::string> faces;
   std::string direction_text;
@@ -51,59 +79,11 @@ struct Settings {
   std::vector<tufted::SurfacePoint> starts;
   Eigen::RowVector3d direction = Eigen::RowVector3d::Zero();
 
-  std::vector<std::string> files() const { return {"path.npy", "lines.ply", "lines.obj", "lines.svg"}; }
+  std::vector<std::string> files() const override { return {"path.npy", "lines.ply", "lines.obj", "lines.svg"}; }
 };
 
-void check(Settings& settings, const Operator& source) {
-  checkFrames(source);
-  settings.places = settings.points.places(source);
-  settings.starts = pointsInFaces(settings.faces, source);
-  if (settings.places.size() + settings.starts.size() != 1)
-    throw tufted::InvalidInput(std::to_string(settings.places.size() + settings.starts.size()) +
-                               " starts are given, must be one by --source, --near or --face");
-  settings.direction = parsePosition(settings.direction_text, "--direction");
-  if (settings.direction.isZero(0))
-    throw tufted::InvalidInput("--direction " + settings.direction_text + " has no direction");
-}
-
-Results compute(Settings& settings, Operator& source) {
-  Results results;
-  for (const int point : locate(settings.places, source, results)) {
-    requireTakingPart({point}, source);
-    settings.starts = {tufted::SurfacePoint::vertex(point)};
-    results.report["source_point"] = point;
-  }
-  tufted::SurfacePoint start = settings.starts.front();
-  for (int& corner : start.corners) corner = source.laplacian.representative[corner];
-  const tufted::GeodesicTracer tracer(source.laplacian.positions, joinedTriangles(source), framesOf(source));
-  const tufted::TracedLine traced = tracer.query(start, settings.direction, settings.length, source.progress);
-  const char* const reason = tufted::nameOf(traced.reason);
-  results.arrays = {{.name = "path", .values = traced.line.points, .per_point = false}};
-  results.lines = {traced.line};
-  results.report["length"] = traced.line.length;
-  results.report["ended_by"] = reason;
-  results.report["end"] = {{"corners", traced.end.corners}, {"weights", traced.end.weights}};
-  results.report["direction"] = {traced.direction[0], traced.direction[1], traced.direction[2]};
-  results.summary.add("length", "%.6g, %lld points", traced.line.length,
-                      static_cast<long long>(traced.line.points.rows()));
-  results.summary.add("ended by", "%s", reason);
-  return results;
-}
-
 }  // namespace
-}  // namespace trace_command
 
 void addTrace(CLI::App& app, Run& run) {
-  using namespace trace_command;
-  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "trace", description, footer, compute, check);
-  settings->source.cover = CoverUse::clouds;
-  addPointOptions(*command, settings->points, "Start");
-  addFaceOption(*command, settings->faces, "Start");
-  command->add_option("--direction", settings->direction_text, "Direction in which the line starts, of any length")
-      ->required()
-      ->type_name("X,Y,Z");
-  addNumber(*command, "--length", settings->length, std::numeric_limits<double>::min(),
-            std::numeric_limits<double>::max(), "Length of the line, in the unit of FILE")
-      ->required()
-      ->type_name("D");
+  addSubcommand<Trace>(app, run);
 }

@@ -78,6 +78,7 @@ constexpr double most_seconds = 1e9;     // greatest value of --time
 constexpr std::size_t most_text = 4096;  // most bytes shown of the output of a process without a result
 
 struct Settings {
+  const CLI::App* command = nullptr;
   std::vector<std::filesystem::path> paths, operators;
   tufted::ReadAs as = tufted::ReadAs::automatic;
   ChosenPoints chosen;
@@ -88,19 +89,12 @@ struct Settings {
   Console console;
 };
 
-/// The arguments with which this program judges one file.
+/// The arguments with which this program judges one file: options of files as they were given.
 std::vector<std::string> wordsForOne(const std::filesystem::path& path, bool is_operator, const Settings& settings) {
-  const double seconds = settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // printed with six decimals
-  std::vector<std::string> words = {
-      name, "--one", "--jobs", std::to_string(settings.jobs), "--time", std::to_string(seconds)};
-  if (settings.memory) words.insert(words.end(), {"--memory", std::to_string(*settings.memory)});
-  for (const auto& [word, as] : kinds)
-    if (as == settings.as) words.insert(words.end(), {"--as", word});
-  const ChosenPoints& chosen = settings.chosen;
-  for (const std::string& condition : chosen.selection.where) words.insert(words.end(), {"--where", condition});
-  if (!chosen.crop.empty()) words.insert(words.end(), {"--crop", chosen.crop});
-  if (!chosen.polygon.empty()) words.insert(words.end(), {"--polygon", chosen.polygon.string()});
-  if (chosen.selection.thin > 0) words.insert(words.end(), {"--thin", Json(chosen.selection.thin).dump()});
+  std::vector<std::string> words = {name, "--one", "--jobs", std::to_string(settings.jobs)};
+  for (const char* const option : {"--time", "--memory", "--as", "--where", "--crop", "--polygon", "--thin"})
+    for (const std::string& value : settings.command->get_option(option)->results())
+      words.insert(words.end(), {option, value});
   if (is_operator) words.emplace_back("--operator");
   words.push_back(std::filesystem::absolute(path).string());  // absolute, so that it does not look like an option
   return words;
@@ -142,17 +136,12 @@ Json describeFile(const std::string& file, int status, double seconds, const std
   return row;
 }
 
-void print(const std::string& line) {
-  if (std::puts(line.c_str()) < 0 || std::fflush(stdout) != 0)
-    throw tufted::IoError("standard output: cannot write the results");
-}
-
 /// Collects the rows, and prints them in the order of the files, each as soon as all before it are known.
 class Results {
  public:
   Results(std::size_t files, const Console& console)
       : rows_(files), as_lines_(!console.json && !console.quiet), as_json_(console.json), bar_(console.quiet) {
-    if (as_lines_) print(tableHeader());
+    if (as_lines_) print(tableHeader() + "\n");
   }
 
   void add(std::size_t number, Json row) {
@@ -162,7 +151,7 @@ class Results {
     rows_[number] = std::move(row);
     for (; as_lines_ && printed_ < rows_.size() && !rows_[printed_].is_null(); ++printed_) {
       bar_.clear();
-      print(tableLine(rows_[printed_]));
+      print(tableLine(rows_[printed_]) + "\n");
     }
   }
 
@@ -180,11 +169,11 @@ class Results {
     text << std::fixed << countText(static_cast<std::int64_t>(rows_.size()), "file") << ": " << ok << " OK, ";
     if (empty > 0) text << empty << " EMPTY, ";
     text << refused << " REFUSED, " << failed << " FAILED, " << seconds << " s";
-    if (as_lines_) print(text.str());
+    if (as_lines_) print(text.str() + "\n");
     const Json summary = {{"files", rows_.size()}, {"ok", ok},         {"empty", empty},
                           {"refused", refused},    {"failed", failed}, {"seconds", seconds}};
     const Json document = {{"tufted", TUFTED_VERSION}, {"files", rows_}, {"summary", summary}};
-    if (as_json_) print(document.dump(2, ' ', false, Json::error_handler_t::replace));
+    if (as_json_) print(textOf(document));
     const std::string of = " of " + std::to_string(rows_.size()) + " ";
     const std::string none = empty > 0 ? std::to_string(empty) + of + "EMPTY: no point is active" : "";
     if (failed > 0)
@@ -286,21 +275,20 @@ void addValidate(CLI::App& app, Run& run) {
       ->check(notEmpty)
       ->transform(CLI::Validator(withoutProtection, ""))
       ->type_name("DIR");
-  addNumber(command, "--jobs", settings->jobs, 1, 1024, "Maximum number of files checked at once (one per processor)")
-      ->type_name("N");
-  addNumber(command, "--time", settings->seconds, 0.0, most_seconds,
-            "Time limit per file in seconds; 0: no limit (600)")
-      ->type_name("S");
-  addNumber(command, "--memory", settings->memory, 1, std::numeric_limits<int>::max(),
-            "Memory limit per file in MB; each file is then built by one thread (no limit)")
-      ->type_name("MB");
+  addNumber(command, "--jobs N", settings->jobs, 1, 1024,
+            "Maximum number of files checked at once (one per processor)");
+  addNumber(command, "--time S", settings->seconds, 0.0, most_seconds,
+            "Time limit per file in seconds; 0: no limit (600)");
+  addNumber(command, "--memory MB", settings->memory, 1, std::numeric_limits<int>::max(),
+            "Memory limit per file in MB; each file is then built by one thread (no limit)");
   addChoice(command, "--as", settings->as, kinds,
             "Read each PATH as a point cloud or as a mesh (a mesh if the file has faces)")
       ->needs(paths);
   addSelection(command, settings->chosen);
   command.add_flag("--one", settings->is_one)->group("");  // hidden in the help
   addConsole(command, settings->console);
-  command.callback([&run, settings] {
+  command.callback([&run, &command, settings] {
+    settings->command = &command;
     if (settings->paths.empty() && settings->operators.empty()) throw CLI::RequiredError("PATH or --operator");
     if (settings->chosen.isAsked() && !settings->is_one && !settings->operators.empty())
       throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to files, and --operator names a folder");

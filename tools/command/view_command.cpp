@@ -130,17 +130,12 @@ Scene sceneOfFolder(const std::filesystem::path& folder, tufted::Geometry& geome
 /// Keeps only the named fields, in this order.
 void choose(const std::vector<std::string>& names, Scene& scene) {
   if (names.empty()) return;
-  std::vector<std::string> known;
-  for (const SceneField& field : scene.fields) known.push_back(field.name);
+  const std::vector<std::string> known = namesOf(scene.fields);
   std::vector<SceneField> chosen;
   for (const std::string& name : names) {
     const std::ptrdiff_t at = tufted::findField(known, name);
-    if (at < 0) {
-      std::string all;
-      for (const std::string& field : known) all += (all.empty() ? "" : ", ") + field;
-      throw tufted::InvalidInput("--field " + name + (known.empty() ? ": there are no fields" : " is none of " + all) +
-                                 didYouMean(name, known));
-    }
+    if (at < 0)
+      throw tufted::InvalidInput("--field " + (known.empty() ? name + ": there are no fields" : noneOf(name, known)));
     chosen.push_back(scene.fields[static_cast<std::size_t>(at)]);
   }
   scene.fields = std::move(chosen);
@@ -195,9 +190,8 @@ int runView(Settings& settings) {
   if (finite < scene.positions.rows())
     summary.add("left out", "%lld, not finite", static_cast<long long>(scene.positions.rows()) - finite);
   if (scene.triangles.rows() > 0) summary.add("triangles", "%lld", static_cast<long long>(scene.triangles.rows()));
-  std::string names;
-  for (const SceneField& field : scene.fields) names.append(names.empty() ? "" : ", ").append(field.name);
-  summary.add("fields", "%s", names.empty() ? "none" : names.c_str());
+  const std::vector<std::string> names = namesOf(scene.fields);
+  summary.add("fields", "%s", names.empty() ? "none" : joined(names).c_str());
   addLook(look, summary);
   if (settings.console.quiet) return exit_done;
   std::string text = summary.text(false);
@@ -205,16 +199,14 @@ int runView(Settings& settings) {
     nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", "view"}, {"source", settings.what.string()}};
     json["points"] = scene.positions.rows();
     json["triangles"] = scene.triangles.rows();
-    json["fields"] = nlohmann::ordered_json::array();
-    for (const SceneField& field : scene.fields) json["fields"].push_back(field.name);
+    json["fields"] = names;
     if (chosen.of > 0) json["selection"] = chosen.json();
     json["warnings"] = geometry.notes;
     if (!look.page.empty()) json["page"] = look.page.string();
     if (!look.png.empty()) json["picture"] = look.png.string();
-    text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    text = textOf(json);
   }
-  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
-    throw tufted::IoError("standard output: cannot be written");
+  print(text);
   return exit_done;
 }
 
@@ -229,11 +221,8 @@ void addView(CLI::App& app, Run& run) {
   command.add_option("WHAT", settings->what, "Folder of results, or a file of a point cloud or mesh")
       ->required()
       ->check(notEmpty);
-  command
-      .add_option("--out,-o,--view", settings->look.page,
-                  "Name of the page (without a picture view.html in the folder, or the name of the file with .html)")
-      ->check(notEmpty)
-      ->type_name("FILE.html");
+  addText(command, "--out,-o,--view FILE.html", settings->look.page,
+          "Name of the page (without a picture view.html in the folder, or the name of the file with .html)");
   command
       .add_option("--field", settings->fields, "Show only this field; may be repeated, in the order of the page (all)")
       ->allow_extra_args(false)

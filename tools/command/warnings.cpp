@@ -18,16 +18,12 @@ std::string nothingActive(const tufted::Laplacian& laplacian) {
   return tufted::warnings(counts).front();
 }
 
-std::vector<std::string> warningsOf(const std::string& file, const tufted::Report& report) {
-  std::vector<std::string> lines = tufted::warnings(report);
-  for (std::string& line : lines) line = file + ": " + line;
-  return lines;
-}
-
-std::vector<std::string> warningsOf(const std::string& file, const tufted::Geometry& geometry) {
+std::vector<std::string> warningsOf(const std::string& file, const tufted::Geometry& geometry,
+                                    const std::vector<std::string>& computed) {
   std::vector<std::string> lines = geometry.notes;
   const std::string line = geometry.is_mesh || geometry.height > 1 ? "" : tufted::hoveringWarning(geometry.points);
   if (!line.empty()) lines.push_back(file + ": " + line);
+  for (const std::string& each : computed) lines.push_back(file + ": " + each);
   return lines;
 }
 

@@ -10,11 +10,10 @@
 /// How many points have which status if no point is active; otherwise an empty string.
 std::string nothingActive(const tufted::Laplacian& laplacian);
 
-/// tufted::warnings() of a build, each preceded by the name of the file.
-std::vector<std::string> warningsOf(const std::string& file, const tufted::Report& report);
-
-/// What is to be said of a geometry that was read: its notes, and tufted::hoveringWarning() of a cloud without pixels.
-std::vector<std::string> warningsOf(const std::string& file, const tufted::Geometry& geometry);
+/// What is to be said of a geometry that was read: its notes, tufted::hoveringWarning() of a cloud without pixels, and
+/// lines of what was computed, each preceded by the name of the file.
+std::vector<std::string> warningsOf(const std::string& file, const tufted::Geometry& geometry,
+                                    const std::vector<std::string>& computed = {});
 
 /// Clears the bar and writes a line to stderr.
 void warn(ProgressBar& bar, const std::string& line);

@@ -1,4 +1,4 @@
-// Decodes the numbers of the page, elements of deflated base64: see src/view/page_block.cpp and page_columns.cpp.
+// Decodes the numbers of the page, elements of deflated base64: see src/view/page_parts.cpp.
 
 const top_level = 65534;
 const no_level = 65535;
@@ -18,7 +18,7 @@ async function inflated(block) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// Undoes bytePlanes() of page_block.cpp: puts the bytes of each number side by side.
+// Undoes bytePlanes() of page_parts.cpp: puts the bytes of each number side by side.
 function joined(planes, width) {
   const count = planes.length / width;
   const bytes = new Uint8Array(planes.length);

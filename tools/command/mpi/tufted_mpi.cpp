@@ -280,23 +280,15 @@ class CommandLine {
     command.add_option("FILE", settings_.file, "Cloud: LAS, PLY, PCD, NPY, text in columns")
         ->required()
         ->check(notEmpty);
-    command.add_option("--out", settings_.out, "Folder of the results, made if missing")
-        ->required()
-        ->check(notEmpty)
-        ->type_name("DIR");
+    addText(command, "--out DIR", settings_.out, "Folder of the results, made if missing")->required();
     addChoice(command, "--as", settings_.as, kinds, "What a PLY or OBJ is read as");
     command.add_option("--neighbors", settings_.tiles.cloud.neighbors, "Neighbours of each point")
         ->capture_default_str();
     command.add_option("--threads", settings_.tiles.cloud.threads, "Threads of each process")->capture_default_str();
-    command
-        .add_option_function<std::string>(
-            "--memory",
-            [this](const std::string& size) { settings_.tiles.memory = static_cast<double>(*parseBytes(size)); },
-            "Memory of a build of tiles in each process; rows and solvers come on top, see docs/scale.md")
-        ->check([](const std::string& size) {
-          return parseBytes(size) ? std::string() : size + " is not a size such as 4G or 500M";
-        })
-        ->type_name("SIZE")
+    addBytes(
+        command, "--memory",
+        [this](std::size_t bytes, const std::string&) { settings_.tiles.memory = static_cast<double>(bytes); },
+        "Memory of a build of tiles in each process; rows and solvers come on top, see docs/scale.md")
         ->default_str("4G");
     files.emplace_back("report.json");
     command.callback([this, &command, files = std::move(files), compute = std::move(compute)] {

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/time.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -17,8 +18,8 @@
 #include <vector>
 
 #include "../command.h"
+#include "../console.h"
 #include "../interrupt.h"
-#include "../peak_memory.h"
 #include "../structure.h"
 #include "../warnings.h"
 #include "tufted/check.h"
@@ -30,6 +31,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void limitTime(double seconds) {
+  if (seconds > 0) seconds = std::max(seconds, 1e-6);  // the timer counts in microseconds, and 0 means no limit
   const auto whole = static_cast<time_t>(seconds);
   const itimerval timer = {{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - static_cast<double>(whole)))}};
   setitimer(ITIMER_REAL, &timer, nullptr);

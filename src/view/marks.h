@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "view/color_maps.h"
+#include "view/field_colors.h"
 #include "view/samples.h"
 #include "view/text.h"
 
@@ -22,5 +23,8 @@ void drawRing(const Eigen::Vector2d& place, double text_size, Canvas& canvas);
 
 /// Draws rings around points, smaller ones where the surface hides them.
 void drawSources(const SeenScene& seen, const std::vector<int>& sources, double text_size, Canvas& canvas);
+
+/// Draws the vectors of a field as arrows, at one visible point in each cell of a grid on the screen.
+void drawArrows(const SeenScene& seen, const FieldColors& colors, Canvas& canvas);
 
 }  // namespace tufted::view

@@ -1,4 +1,0 @@
-#pragma once
-
-/// Peak memory of this process in MB.
-double peakMemory();
