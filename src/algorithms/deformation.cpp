@@ -198,8 +198,4 @@ Points DeformationSolver::query(const PointsRef& targets, DeformationReport* rep
   return state_->deform(targets, report, progress);
 }
 
-DeformationSolver::DeformationSolver(DeformationSolver&&) noexcept = default;
-DeformationSolver& DeformationSolver::operator=(DeformationSolver&&) noexcept = default;
-DeformationSolver::~DeformationSolver() = default;
-
 }  // namespace tufted

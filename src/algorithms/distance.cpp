@@ -76,10 +76,6 @@ void DistanceReport::add(const DistanceReport& other) {
   if (other.weak_joint) weak_joint = other.weak_joint;
 }
 
-DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
-DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
-DistanceSolver::~DistanceSolver() = default;
-
 DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions& options) {
   checkArguments(laplacian, options);
   const int split = checkedSplit(constructor, options.split, laplacian);

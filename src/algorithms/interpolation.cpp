@@ -288,10 +288,6 @@ const SolverReport& InterpolationSolver::report() const {
   return state_->interpolator.solver().report();
 }
 
-InterpolationSolver::InterpolationSolver(InterpolationSolver&&) noexcept = default;
-InterpolationSolver& InterpolationSolver::operator=(InterpolationSolver&&) noexcept = default;
-InterpolationSolver::~InterpolationSolver() = default;
-
 struct PoissonSolver::State {
   Laplacian laplacian;
   LinearSystem system;
@@ -322,9 +318,5 @@ Eigen::MatrixXd PoissonSolver::queryGreen(const std::vector<int>& points, SolveR
 const SolverReport& PoissonSolver::report() const {
   return state_->system.report();
 }
-
-PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
-PoissonSolver& PoissonSolver::operator=(PoissonSolver&&) noexcept = default;
-PoissonSolver::~PoissonSolver() = default;
 
 }  // namespace tufted

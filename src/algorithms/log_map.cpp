@@ -146,10 +146,6 @@ struct LogMapSolver::State {
   SolverReport report;
 };
 
-LogMapSolver::LogMapSolver(LogMapSolver&&) noexcept = default;
-LogMapSolver& LogMapSolver::operator=(LogMapSolver&&) noexcept = default;
-LogMapSolver::~LogMapSolver() = default;
-
 LogMapSolver::LogMapSolver(const Laplacian& laplacian, const LogMapOptions& options)
     : LogMapSolver(laplacian, laplacian.frames, options) {}
 

@@ -339,8 +339,4 @@ const SolverReport& SignedDistanceSolver::report() const {
   return state_->report;
 }
 
-SignedDistanceSolver::SignedDistanceSolver(SignedDistanceSolver&&) noexcept = default;
-SignedDistanceSolver& SignedDistanceSolver::operator=(SignedDistanceSolver&&) noexcept = default;
-SignedDistanceSolver::~SignedDistanceSolver() = default;
-
 }  // namespace tufted

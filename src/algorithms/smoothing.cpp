@@ -269,8 +269,4 @@ const SolverReport& SmoothingSolver::report() const {
   return state_->step.report;
 }
 
-SmoothingSolver::SmoothingSolver(SmoothingSolver&&) noexcept = default;
-SmoothingSolver& SmoothingSolver::operator=(SmoothingSolver&&) noexcept = default;
-SmoothingSolver::~SmoothingSolver() = default;
-
 }  // namespace tufted
