@@ -17,6 +17,8 @@
 #include "algorithms/place_in_cover.h"
 #include "base/cover_source.h"
 #include "base/number_text.h"
+#include "base/parallel.h"
+#include "base/require.h"
 #include "base/stage_clock.h"
 #include "operators/check_cover.h"
 #include "tufted/check.h"
@@ -33,6 +35,8 @@ constexpr const char* query_name = "DistanceSolver::query";
 void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) {
   checkSizes(constructor, laplacian);
   const std::string name = std::string(constructor) + ": ";
+  requireChoice(options.method, DistanceMethod::heat, constructor, "method");
+  requireChoice(options.unit, TimeUnit::adapted_edge, constructor, "unit");
   checkHeatTime(constructor, options.time_step);
   if (!(options.maximum > 0))
     throw InvalidInput(name + "maximum = " + numberText(options.maximum) + ", must be above 0");
