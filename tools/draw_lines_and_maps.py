@@ -54,8 +54,8 @@ def draw_maps():
     rolled = tufted.Mesh(np.stack([np.sin(x), y, np.cos(x)], axis=1), faces)
     C = tufted.zoom_out(flat, rolled, tufted.functional_map(flat, rolled))
     to_flat = tufted.point_maps(flat, rolled, C).to_source
-    draw("maps_source", flat, {"x": x}, camera="top", title="source")
-    draw("maps_target", rolled, {"x": x[to_flat]}, up="y", camera=(50, 25), title="target")
+    draw("maps_source", flat, {"x": x}, camera="top", title="source", light=False)
+    draw("maps_target", rolled, {"x": x[to_flat]}, up="y", camera=(50, 25), title="target", light=False)
 
 
 def draw_cut():

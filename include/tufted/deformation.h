@@ -81,15 +81,9 @@ class DeformationSolver {
   /// Moves the handles to `targets`, P x 3 in the caller's unit; result and errors are those of deform().
   Points query(const PointsRef& targets, DeformationReport* report = nullptr, const Progress& progress = {}) const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  DeformationSolver(DeformationSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  DeformationSolver& operator=(DeformationSolver&&) noexcept;
-  ~DeformationSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace tufted

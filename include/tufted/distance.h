@@ -188,15 +188,9 @@ class DistanceSolver {
   /// systems are solved by multigrid.
   const SolverReport& report() const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  DistanceSolver(DistanceSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  DistanceSolver& operator=(DistanceSolver&&) noexcept;
-  ~DistanceSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace tufted

@@ -105,15 +105,9 @@ class InterpolationSolver {
   /// How the constructor factored its system.
   const SolverReport& report() const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  InterpolationSolver(InterpolationSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  InterpolationSolver& operator=(InterpolationSolver&&) noexcept;
-  ~InterpolationSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 /// Computes Green's functions of points (Sharp and Crane 2020, Figure 19), one column for each: L g = delta - M / area,
@@ -146,15 +140,9 @@ class PoissonSolver {
   /// How the constructor factored its system.
   const SolverReport& report() const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  PoissonSolver(PoissonSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  PoissonSolver& operator=(PoissonSolver&&) noexcept;
-  ~PoissonSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace tufted

@@ -60,15 +60,9 @@ class PathSolver {
   /// @throws Cancelled when `progress` returns false
   SurfacePath through(const std::vector<int>& points, bool is_closed, const Progress& progress = {}) const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  PathSolver(PathSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  PathSolver& operator=(PathSolver&&) noexcept;
-  ~PathSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace tufted

@@ -88,15 +88,9 @@ class SignedDistanceSolver {
   /// How the constructor factored its systems, summed over them; for marching that of DistanceSolver.
   const SolverReport& report() const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  SignedDistanceSolver(SignedDistanceSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  SignedDistanceSolver& operator=(SignedDistanceSolver&&) noexcept;
-  ~SignedDistanceSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace tufted

@@ -84,15 +84,9 @@ class SmoothingSolver {
   /// How the constructor factored its system; `method` is empty if no point moves or time_step is 0.
   const SolverReport& report() const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  SmoothingSolver(SmoothingSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  SmoothingSolver& operator=(SmoothingSolver&&) noexcept;
-  ~SmoothingSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace tufted

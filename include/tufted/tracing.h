@@ -63,15 +63,9 @@ class GeodesicTracer {
   TracedLine query(const SurfacePoint& start, const Eigen::RowVector3d& direction, double length,
                    const Progress& progress = {}) const;
 
-  /// A moved-from tracer may only be destroyed or assigned to.
-  GeodesicTracer(GeodesicTracer&&) noexcept;
-  /// A moved-from tracer may only be destroyed or assigned to.
-  GeodesicTracer& operator=(GeodesicTracer&&) noexcept;
-  ~GeodesicTracer();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace tufted

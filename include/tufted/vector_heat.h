@@ -61,15 +61,9 @@ class ExtensionSolver {
   /// How the constructor factored its system.
   const SolverReport& report() const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  ExtensionSolver(ExtensionSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  ExtensionSolver& operator=(ExtensionSolver&&) noexcept;
-  ~ExtensionSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 /// Transports tangent vectors from some points to all points, parallel along the shortest paths (Sharp, Soliman, Crane
@@ -105,15 +99,9 @@ class TransportSolver {
   /// How the constructor factored its systems, summed over them.
   const SolverReport& report() const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  TransportSolver(TransportSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  TransportSolver& operator=(TransportSolver&&) noexcept;
-  ~TransportSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 /// Polar coordinates around a point, as LogMapSolver finds them.
@@ -175,15 +163,9 @@ class LogMapSolver {
   /// Heat: how the constructor factored its systems, summed over them. Exact: method "exact", and its memory.
   const SolverReport& report() const;
 
-  /// A moved-from solver may only be destroyed or assigned to.
-  LogMapSolver(LogMapSolver&&) noexcept;
-  /// A moved-from solver may only be destroyed or assigned to.
-  LogMapSolver& operator=(LogMapSolver&&) noexcept;
-  ~LogMapSolver();
-
  private:
   struct State;
-  std::unique_ptr<const State> state_;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace tufted

@@ -11,6 +11,7 @@
 
 #include "algorithms/check_positions.h"
 #include "base/parallel.h"
+#include "base/require.h"
 #include "base/stage_clock.h"
 #include "base/symmetric_eigen.h"
 #include "operators/rings.h"
@@ -228,6 +229,7 @@ Curvatures curvatures(const Laplacian& laplacian, const CurvatureOptions& option
 
 Curvatures curvatures(const Laplacian& laplacian, const Frames& frames, const CurvatureOptions& options) {
   checkFrames(function_name, laplacian, frames);
+  requireChoice(options.method, CurvatureMethod::laplacian, function_name, "method");
   if (options.threads < 0)
     throw InvalidInput(std::string(function_name) + ": threads = " + std::to_string(options.threads) +
                        ", must be >= 0");

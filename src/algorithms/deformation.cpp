@@ -15,6 +15,7 @@
 #include "algorithms/rigid_deformation.h"
 #include "algorithms/shape_frame.h"
 #include "base/number_text.h"
+#include "base/require.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
@@ -28,6 +29,7 @@ constexpr const char* function_name = "deform";
 constexpr double most_smoothness = 1e6;
 
 void checkOptions(const std::string& function, const DeformationOptions& options) {
+  requireChoice(options.method, DeformationMethod::linear, function, "method");
   if (!(options.smoothness >= 0 && std::isfinite(options.smoothness)))
     throw InvalidInput(function + ": smoothness = " + numberText(options.smoothness) +
                        ", must be finite and at least 0");
@@ -197,9 +199,5 @@ DeformationSolver::DeformationSolver(const Laplacian& laplacian, std::vector<int
 Points DeformationSolver::query(const PointsRef& targets, DeformationReport* report, const Progress& progress) const {
   return state_->deform(targets, report, progress);
 }
-
-DeformationSolver::DeformationSolver(DeformationSolver&&) noexcept = default;
-DeformationSolver& DeformationSolver::operator=(DeformationSolver&&) noexcept = default;
-DeformationSolver::~DeformationSolver() = default;
 
 }  // namespace tufted

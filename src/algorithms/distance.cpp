@@ -17,6 +17,8 @@
 #include "algorithms/place_in_cover.h"
 #include "base/cover_source.h"
 #include "base/number_text.h"
+#include "base/parallel.h"
+#include "base/require.h"
 #include "base/stage_clock.h"
 #include "operators/check_cover.h"
 #include "tufted/check.h"
@@ -33,6 +35,8 @@ constexpr const char* query_name = "DistanceSolver::query";
 void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) {
   checkSizes(constructor, laplacian);
   const std::string name = std::string(constructor) + ": ";
+  requireChoice(options.method, DistanceMethod::heat, constructor, "method");
+  requireChoice(options.unit, TimeUnit::adapted_edge, constructor, "unit");
   checkHeatTime(constructor, options.time_step);
   if (!(options.maximum > 0))
     throw InvalidInput(name + "maximum = " + numberText(options.maximum) + ", must be above 0");
@@ -47,6 +51,7 @@ struct DistanceSolver::State {
   std::vector<PointStatus> status;
   std::shared_ptr<const CoverSource> cover;  ///< shared with the Laplacian or its builder
   double maximum = infinity;
+  int threads = 0;
   std::optional<MarchingDistance> marching;
   std::optional<HeatDistance> heat;
   SolverReport report;
@@ -76,10 +81,6 @@ void DistanceReport::add(const DistanceReport& other) {
   if (other.weak_joint) weak_joint = other.weak_joint;
 }
 
-DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
-DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
-DistanceSolver::~DistanceSolver() = default;
-
 DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions& options) {
   checkArguments(laplacian, options);
   const int split = checkedSplit(constructor, options.split, laplacian);
@@ -90,6 +91,7 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   state->status = laplacian.status;
   state->cover = laplacian.cover_source;
   state->maximum = options.maximum;
+  state->threads = options.solver.threads;
   if (options.method == DistanceMethod::marching)
     state->report = state->marching.emplace(laplacian, split, options).report();
   else
@@ -207,8 +209,6 @@ Eigen::MatrixXd DistanceSolver::matrix(const std::vector<SurfacePoint>& sources,
                                        const Progress& progress) const {
   const State& state = *state_;
   const std::vector<SurfacePoint> known = state.checked(sources);
-  DistanceReport made;
-  Eigen::MatrixXd distance = Eigen::MatrixXd::Constant(std::ssize(state.representative), std::ssize(sources), infinity);
   std::vector<int> rows;
   for (std::size_t s = 0; s < known.size(); ++s) {
     const std::array<int, 3>& corners = known[s].corners;
@@ -216,11 +216,15 @@ Eigen::MatrixXd DistanceSolver::matrix(const std::vector<SurfacePoint>& sources,
       throw InvalidInput("DistanceSolver::matrix: source " + std::to_string(s) +
                          " lies inside a triangle, must be a vertex if symmetric");
     rows.push_back(corners[0]);
-    if (!state.takesPart(known[s])) continue;
-    DistanceReport one;
-    distance.col(static_cast<Eigen::Index>(s)) = queryAt({sources[s]}, &one, progress);
-    made.add(one);
   }
+  Eigen::MatrixXd distance = Eigen::MatrixXd::Constant(std::ssize(state.representative), std::ssize(sources), infinity);
+  std::vector<DistanceReport> reports(sources.size());
+  Workers(state.threads, progress).forBlocks("distances", std::ssize(sources), 1, [&](auto s, auto, int worker) {
+    if (!state.takesPart(known[s])) return;
+    distance.col(s) = queryAt({sources[s]}, &reports[s], worker == 0 ? progress : Progress());
+  });
+  DistanceReport made;
+  for (const DistanceReport& one : reports) made.add(one);
   if (symmetric) {
     const Eigen::MatrixXd between = distance(rows, Eigen::all);
     distance(rows, Eigen::all) = (between + between.transpose()) / 2;

@@ -32,10 +32,6 @@ struct ExtensionSolver::State {
   FieldHeat heat;
 };
 
-ExtensionSolver::ExtensionSolver(ExtensionSolver&&) noexcept = default;
-ExtensionSolver& ExtensionSolver::operator=(ExtensionSolver&&) noexcept = default;
-ExtensionSolver::~ExtensionSolver() = default;
-
 ExtensionSolver::ExtensionSolver(const Laplacian& laplacian, const VectorHeatOptions& options)
     : state_(new State{FieldHeat(constructor, laplacian, nullptr, options, memoryLimit(options.solver.memory_limit))}) {
 }

@@ -18,6 +18,7 @@
 #include "algorithms/pinned_solver.h"
 #include "algorithms/pinned_system.h"
 #include "algorithms/refinement.h"
+#include "base/require.h"
 #include "base/stage_clock.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -57,6 +58,7 @@ class Interpolator {
   Interpolator(const std::string& function, const Laplacian& laplacian, std::vector<int> points, Interpolation kind,
                const SolverOptions& options)
       : kind_(kind), points_(std::move(points)) {
+    requireChoice(kind, Interpolation::biharmonic, function, "kind");
     PinnedPoints pinned = pinnedPoints(function, laplacian, points_);
     if (kind == Interpolation::harmonic) {
       const SystemNames names = {.function = function, .matrix = "L", .if_slow = if_slow};
@@ -288,10 +290,6 @@ const SolverReport& InterpolationSolver::report() const {
   return state_->interpolator.solver().report();
 }
 
-InterpolationSolver::InterpolationSolver(InterpolationSolver&&) noexcept = default;
-InterpolationSolver& InterpolationSolver::operator=(InterpolationSolver&&) noexcept = default;
-InterpolationSolver::~InterpolationSolver() = default;
-
 struct PoissonSolver::State {
   Laplacian laplacian;
   LinearSystem system;
@@ -322,9 +320,5 @@ Eigen::MatrixXd PoissonSolver::queryGreen(const std::vector<int>& points, SolveR
 const SolverReport& PoissonSolver::report() const {
   return state_->system.report();
 }
-
-PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
-PoissonSolver& PoissonSolver::operator=(PoissonSolver&&) noexcept = default;
-PoissonSolver::~PoissonSolver() = default;
 
 }  // namespace tufted

@@ -8,6 +8,7 @@
 
 #include "algorithms/memory_limit.h"
 #include "base/number_text.h"
+#include "base/require.h"
 #include "base/stage_clock.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -48,9 +49,10 @@ LinearSystem::LinearSystem(const SystemNames& names, const SolverOptions& option
 
 /// Prepares the backend by the method chosen, or by the one that fits into memory.
 void LinearSystem::prepare(const SolverOptions& options, const Workers& workers) {
+  const std::string& function = names_.function;
+  requireChoice(options.method, SolverMethod::multigrid, function, "method");
   report_.unknowns = lower_.rows();
   if (report_.unknowns == 0) return;
-  const std::string& function = names_.function;
   if (options.method == SolverMethod::multigrid && names_.if_too_large == IfTooLarge::refuse)
     throw SolverFailure(function + ": multigrid is not fit for " + names_.matrix +
                         "; set method to SolverMethod::cholesky");

@@ -18,6 +18,7 @@
 #include "algorithms/heat_time.h"
 #include "algorithms/memory_limit.h"
 #include "algorithms/vector_heat.h"
+#include "base/require.h"
 #include "base/stage_clock.h"
 #include "operators/check_cover.h"
 #include "tufted/distance.h"
@@ -146,15 +147,12 @@ struct LogMapSolver::State {
   SolverReport report;
 };
 
-LogMapSolver::LogMapSolver(LogMapSolver&&) noexcept = default;
-LogMapSolver& LogMapSolver::operator=(LogMapSolver&&) noexcept = default;
-LogMapSolver::~LogMapSolver() = default;
-
 LogMapSolver::LogMapSolver(const Laplacian& laplacian, const LogMapOptions& options)
     : LogMapSolver(laplacian, laplacian.frames, options) {}
 
 LogMapSolver::LogMapSolver(const Laplacian& laplacian, const Frames& frames, const LogMapOptions& options) {
   checkFrames(constructor, laplacian, frames);
+  requireChoice(options.method, LogMapMethod::heat, constructor, "method");
   checkHeatTime(constructor, options.time_step);
   if (!laplacian.hasCover())
     throw InvalidInput(std::string(constructor) + ": the Laplacian has no cover, must have one: keep_cover = true");

@@ -17,6 +17,7 @@
 #include "algorithms/connected.h"
 #include "algorithms/mean_value_map.h"
 #include "base/parallel.h"
+#include "base/require.h"
 #include "base/sort_unique.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
@@ -37,6 +38,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void checkArguments(const Laplacian& laplacian, const ParameterizationOptions& options) {
   checkPositions(function_name, laplacian);
+  requireChoice(options.method, ParameterizationMethod::harmonic, function_name, "method");
+  requireChoice(options.weights, HarmonicWeights::mean_value, function_name, "weights");
   const bool is_harmonic = options.method == ParameterizationMethod::harmonic;
   if (!is_harmonic && (!options.rim.empty() || options.weights != HarmonicWeights::laplacian))
     refuse("rim or weights are given, must be with ParameterizationMethod::harmonic alone");

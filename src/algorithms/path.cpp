@@ -87,10 +87,6 @@ struct PathSolver::State {
   SurfacePath straightened(int from, const std::vector<Strip>& strips, const Workers& workers) const;
 };
 
-PathSolver::PathSolver(PathSolver&&) noexcept = default;
-PathSolver& PathSolver::operator=(PathSolver&&) noexcept = default;
-PathSolver::~PathSolver() = default;
-
 PathSolver::PathSolver(const Laplacian& laplacian, const PathOptions& options) {
   checkSizes(constructor, laplacian);
   checkCover(constructor, laplacian);

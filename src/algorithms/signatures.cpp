@@ -11,6 +11,7 @@
 #include "algorithms/connected.h"
 #include "base/number_text.h"
 #include "base/power_of_two.h"
+#include "base/require.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 
@@ -124,6 +125,7 @@ MatrixXd waveKernelSignature(const Spectrum& spectrum, int count) {
 }
 
 MatrixXd spectralEmbedding(const Spectrum& spectrum, Embedding embedding) {
+  requireChoice(embedding, Embedding::biharmonic, "spectralEmbedding", "embedding");
   const double* const begin = spectrum.values.data();
   const Index first = std::upper_bound(begin, begin + spectrum.values.size(), 0.0) - begin;
   const Index count = spectrum.values.size() - first;

@@ -20,6 +20,7 @@
 #include "algorithms/memory_limit.h"
 #include "algorithms/place_in_cover.h"
 #include "algorithms/vector_heat.h"
+#include "base/require.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
 
@@ -326,6 +327,7 @@ SignedDistanceSolver::SignedDistanceSolver(const Laplacian& laplacian, const Fra
                                            const SignedDistanceOptions& options) {
   const Stopwatch watch;
   checkFrames(constructor, laplacian, frames);
+  requireChoice(options.method, DistanceMethod::heat, constructor, "method");
   auto state = std::make_unique<State>(laplacian, frames, options);
   state->report.seconds = watch.seconds();
   state_ = std::move(state);
@@ -338,9 +340,5 @@ double SignedDistanceSolver::timeStep() const {
 const SolverReport& SignedDistanceSolver::report() const {
   return state_->report;
 }
-
-SignedDistanceSolver::SignedDistanceSolver(SignedDistanceSolver&&) noexcept = default;
-SignedDistanceSolver& SignedDistanceSolver::operator=(SignedDistanceSolver&&) noexcept = default;
-SignedDistanceSolver::~SignedDistanceSolver() = default;
 
 }  // namespace tufted

@@ -13,6 +13,7 @@
 #include "algorithms/linear_system.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "base/require.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 
@@ -213,6 +214,7 @@ Eigen::MatrixXd smoothed(const std::string& function, const Laplacian& laplacian
   checkSizes(function, laplacian);
   checkValues(function, laplacian, what, values, options.iterations);
   checkFixed(function, laplacian, options.fixed);
+  requireChoice(options.method, SmoothingMethod::taubin, function, "method");
   if (options.method == SmoothingMethod::taubin) return smoothByTaubin(function, laplacian, values, options);
   const Step step(function, laplacian, options);
   return step.smooth(function, laplacian, values, options.iterations, options.solver.progress);
@@ -268,9 +270,5 @@ Points SmoothingSolver::query(const PointsRef& points, int iterations, const Pro
 const SolverReport& SmoothingSolver::report() const {
   return state_->step.report;
 }
-
-SmoothingSolver::SmoothingSolver(SmoothingSolver&&) noexcept = default;
-SmoothingSolver& SmoothingSolver::operator=(SmoothingSolver&&) noexcept = default;
-SmoothingSolver::~SmoothingSolver() = default;
 
 }  // namespace tufted

@@ -95,10 +95,6 @@ struct GeodesicTracer::State {
   std::optional<FaceAhead> beyond(const FaceAhead& ahead, const Leaving& leaving, TraceEnd& reason) const;
 };
 
-GeodesicTracer::GeodesicTracer(GeodesicTracer&&) noexcept = default;
-GeodesicTracer& GeodesicTracer::operator=(GeodesicTracer&&) noexcept = default;
-GeodesicTracer::~GeodesicTracer() = default;
-
 GeodesicTracer::GeodesicTracer(const PointsRef& points, const TrianglesRef& triangles, const Frames& frames) {
   const auto require = [&](const char* name, const Points& array) {
     if (array.rows() != points.rows())

@@ -23,10 +23,6 @@ struct TransportSolver::State {
   FieldHeat heat;
 };
 
-TransportSolver::TransportSolver(TransportSolver&&) noexcept = default;
-TransportSolver& TransportSolver::operator=(TransportSolver&&) noexcept = default;
-TransportSolver::~TransportSolver() = default;
-
 TransportSolver::TransportSolver(const Laplacian& laplacian, const VectorHeatOptions& options)
     : TransportSolver(laplacian, laplacian.frames, options) {}
 

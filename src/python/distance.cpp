@@ -62,6 +62,12 @@ py::tuple nearest(const DistanceSolver& solver, const std::vector<SurfacePoint>&
   return py::make_tuple(std::move(found.distance), owned(std::move(found.source)));
 }
 
+/// N x S distances from each source.
+Eigen::MatrixXd matrix(const DistanceSolver& solver, const std::vector<SurfacePoint>& places, bool symmetric,
+                       const py::object& progress) {
+  return run(progress, [&](const Progress& called) { return solver.matrix(places, symmetric, nullptr, called); });
+}
+
 /// The points within a radius of some points, ascending, and their distances.
 py::tuple within(const Laplacian& laplacian, const Integers& sources, double radius, std::optional<int> split,
                  const py::object& progress) {
@@ -125,6 +131,7 @@ void addDistance(py::module_& module) {
       .def(py::init(&solverOf))
       .def("query", &query)
       .def("nearest", &nearest)
+      .def("matrix", &matrix)
       .def_property_readonly("time_step", &DistanceSolver::timeStep);
   py::class_<PathSolver>(module, "PathSolver")
       .def(py::init(&pathSolverOf))

@@ -16,52 +16,6 @@ struct Name {
   const char* python;
 };
 
-/// Names with which the library's messages begin, and the function that the user of Python called.
-constexpr std::array functions = {
-    Name{"pointCloudLaplacian", "PointCloud"},
-    Name{"ringStructure", "PointCloud"},
-    Name{"findRings", "PointCloud"},
-    Name{"imageStructure", "PointCloud"},
-    Name{"meshLaplacian", "Mesh"},
-    Name{"meshFrames", "Mesh"},
-    Name{"DistanceSolver::query", "distance"},
-    Name{"DistanceSolver", "distance"},
-    Name{"SurfacePoint::inFace", "distance"},
-    Name{"pointsWithin", "points_within"},
-    Name{"PathSolver::query", "path"},
-    Name{"PathSolver::through", "path_through"},
-    Name{"PathSolver", "path"},
-    Name{"ExtensionSolver::query", "extend"},
-    Name{"ExtensionSolver", "extend"},
-    Name{"TransportSolver::query", "transport"},
-    Name{"TransportSolver", "transport"},
-    Name{"LogMapSolver::query", "log_map"},
-    Name{"LogMapSolver", "log_map"},
-    Name{"SignedDistanceSolver::query", "signed_distance"},
-    Name{"SignedDistanceSolver", "signed_distance"},
-    Name{"boundedBiharmonicWeights", "weights"},
-    Name{"PoissonSolver", "poisson"},
-    Name{"SmoothingSolver", "smooth"},
-    Name{"smoothValues", "smooth_values"},
-    Name{"minimalSurface", "minimal_surface"},
-    Name{"DeformationSolver", "deform"},
-    Name{"greensFunction", "green"},
-    Name{"heatTimes", "hks"},
-    Name{"heatKernelSignature", "hks"},
-    Name{"waveEnergies", "wks"},
-    Name{"waveKernelSignature", "wks"},
-    Name{"filterSignals", "filter"},
-    Name{"componentMeans", "filter"},
-    Name{"orientedFrames", "normals"},
-    Name{"curvatures", "curvature"},
-    Name{"surfaceTriangles", "triangles"},
-    Name{"restrictedTo", "restricted_to"},
-    Name{"nearestPoints", "nearest"},
-    Name{"writeLaplacian", "save"},
-    Name{"select", "read"},
-    Name{"thinPoints", "thin"},
-};
-
 /// Words within the library's messages, and their names in Python.
 constexpr std::array words = {
     Name{"pins.points", "pins"},
@@ -77,15 +31,9 @@ constexpr std::array words = {
     Name{"componentMeans", "filter"},
 };
 
-/// A message of the library with the names of Python.
+/// A message of the library with the names of Python. The function that it begins with is named by the package.
 std::string inPython(const char* message) {
   std::string text = message;
-  const std::size_t colon = text.find(": ");
-  for (const Name& name : functions) {
-    if (colon == std::string::npos || text.substr(0, colon) != name.cpp) continue;
-    text.replace(0, colon, name.python);
-    break;
-  }
   for (const Name& name : words) {
     const std::string from = name.cpp, to = name.python;
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))

@@ -64,7 +64,7 @@ Geometry readFile(const std::filesystem::path& path, const std::string& kind, bo
     removeFileRow(geometry);
   else
     run(progress, [&](const Progress& called) { return select(geometry, selection, called); });
-  const int caller = 2;  // stack level: the line that called the package's function
+  const int caller = 3;  // stack level: the line that called the function of the package, which is wrapped once
   for (const std::string& note : geometry.notes)
     if (PyErr_WarnEx(PyExc_UserWarning, note.c_str(), caller) != 0) throw py::error_already_set();
   return geometry;

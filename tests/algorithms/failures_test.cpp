@@ -237,5 +237,44 @@ TEST(Progress, CancelsSolvesAndQueriesAtEveryCall) {
   }
 }
 
+TEST(Failures, NameAChoiceThatIsNone) {
+  const shapes::Mesh mesh = shapes::gridSquare(6);
+  const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
+  const Frames frames = meshFrames(mesh.points, mesh.triangles);
+  const Points& points = mesh.points;
+  const MatrixXd one = MatrixXd::Ones(points.rows(), 1);
+  const auto expect = [](const std::string& message, const std::function<void()>& call) {
+    EXPECT_EQ(support::refusal(call), message);
+  };
+  expect("DistanceSolver: method = 7, must lie in [0, 1]",
+         [&] { DistanceSolver(laplacian, {.method = static_cast<DistanceMethod>(7)}); });
+  expect("DistanceSolver: unit = 7, must lie in [0, 1]",
+         [&] { DistanceSolver(laplacian, {.unit = static_cast<TimeUnit>(7)}); });
+  expect("SignedDistanceSolver: method = 7, must lie in [0, 1]",
+         [&] { SignedDistanceSolver(laplacian, frames, {.method = static_cast<DistanceMethod>(7)}); });
+  expect("LogMapSolver: method = 7, must lie in [0, 1]",
+         [&] { LogMapSolver(laplacian, frames, {.method = static_cast<LogMapMethod>(7)}); });
+  expect("segments: method = 7, must lie in [0, 2]",
+         [&] { segments(laplacian, {.method = static_cast<SegmentMethod>(7)}); });
+  expect("smooth: method = 7, must lie in [0, 1]",
+         [&] { smooth(laplacian, points, {.method = static_cast<SmoothingMethod>(7)}); });
+  expect("parameterize: method = 7, must lie in [0, 1]",
+         [&] { parameterize(laplacian, mesh.triangles, {.method = static_cast<ParameterizationMethod>(7)}); });
+  expect("parameterize: weights = 7, must lie in [0, 1]", [&] {
+    parameterize(laplacian, mesh.triangles,
+                 {.method = ParameterizationMethod::harmonic, .weights = static_cast<HarmonicWeights>(7)});
+  });
+  expect("deform: method = 7, must lie in [0, 1]",
+         [&] { deform(laplacian, {0}, points.topRows(1), {.method = static_cast<DeformationMethod>(7)}); });
+  expect("curvatures: method = 7, must lie in [0, 1]",
+         [&] { curvatures(laplacian, frames, {.method = static_cast<CurvatureMethod>(7)}); });
+  expect("InterpolationSolver: kind = 7, must lie in [0, 1]",
+         [&] { InterpolationSolver(laplacian, {0}, static_cast<Interpolation>(7)); });
+  expect("spectralEmbedding: embedding = 7, must lie in [0, 1]",
+         [&] { spectralEmbedding(spectrum(laplacian, 3), static_cast<Embedding>(7)); });
+  expect("poisson: method = -1, must lie in [0, 2]",
+         [&] { poisson(laplacian, one, {.method = static_cast<SolverMethod>(-1)}); });
+}
+
 }  // namespace
 }  // namespace tufted::failures_test

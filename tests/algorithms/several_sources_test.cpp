@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "oracles/planar.h"
@@ -117,6 +119,43 @@ TEST(SeveralSources, ReachPointsFewTimes) {
   // Side by side each marches at most 16 half edges beside the strip where it is the nearest.
   solver.query(firstPoints(100), &several);
   EXPECT_LE(several.visits, 20 * one.visits);
+}
+
+TEST(SeveralSources, HaveAColumnEachInAMatrix) {
+  const shapes::Mesh grid = shapes::gridSquare(12);
+  const Laplacian laplacian = meshLaplacian(grid.points, grid.triangles);
+  const std::vector<SurfacePoint> places = {SurfacePoint::vertex(3),
+                                            SurfacePoint::inFace(grid.points, grid.triangles, 40, {0.2, 0.3, 0.5}),
+                                            SurfacePoint::vertex(77), SurfacePoint::vertex(3)};
+  for (const DistanceMethod method : {DistanceMethod::marching, DistanceMethod::heat}) {
+    for (const int threads : {1, 3}) {
+      const DistanceSolver solver(laplacian, {.method = method, .solver = {.threads = threads}});
+      DistanceReport report, one;
+      const Eigen::MatrixXd found = solver.matrix(places, false, &report);
+      std::int64_t visits = 0;
+      for (std::size_t s = 0; s < places.size(); ++s) {
+        EXPECT_EQ(found.col(static_cast<Eigen::Index>(s)), solver.queryAt({places[s]}, &one)) << s;
+        visits += one.visits;
+      }
+      EXPECT_EQ(report.visits, visits);
+      EXPECT_THROW(solver.matrix(places, true), InvalidInput);
+      int calls = 0;
+      const Progress stop = [&](std::string_view, double) { return ++calls < 3; };
+      EXPECT_THROW(solver.matrix(places, false, nullptr, stop), Cancelled);
+    }
+  }
+}
+
+TEST(SeveralSources, AreAsFarThereAsBackOnRequest) {
+  const std::vector<int> sources = {3, 77, 500};
+  std::vector<SurfacePoint> places;
+  for (const int source : sources) places.push_back(SurfacePoint::vertex(source));
+  const DistanceSolver solver(pointCloudLaplacian(shapes::sphere(1000).points));
+  const Eigen::MatrixXd plain = solver.matrix(places), even = solver.matrix(places, true);
+  const Eigen::Matrix3d there = plain(sources, Eigen::all);
+  EXPECT_GT((there - there.transpose()).norm(), 0);
+  EXPECT_EQ(even(sources, Eigen::all), (there + there.transpose()) / 2);
+  EXPECT_EQ((even.array() != plain.array()).count(), 6);
 }
 
 TEST(SeveralSources, CountOnceWhereTheyAreTheSame) {

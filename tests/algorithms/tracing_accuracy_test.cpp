@@ -106,6 +106,20 @@ TEST(Trace, IsAGreatCircleOnASphere) {
   }
 }
 
+TEST(Trace, StaysInAPlaneOfSymmetry) {
+  const shapes::Mesh mesh = shapes::icosphere(4);
+  const GeodesicTracer tracer(mesh.points, mesh.triangles, meshFrames(mesh.points, mesh.triangles));
+  const double spacing = std::sqrt(4 * pi / static_cast<double>(mesh.points.rows()));
+  for (int axis = 0; axis < 3; ++axis) {
+    int start = 0;  // a vertex in the plane
+    while (std::abs(mesh.points(start, axis)) > 1e-12) ++start;
+    const RowVector3d ahead = RowVector3d::Unit(axis).cross(mesh.points.row(start));
+    const Points line = tracer.query(SurfacePoint::vertex(start), ahead, 6).line.points;
+    EXPECT_GT(line.rows(), 50);
+    EXPECT_LT(line.col(axis).cwiseAbs().maxCoeff(), 1e-6 * spacing) << axis;
+  }
+}
+
 TEST(Trace, IsAGeodesicOnATorus) {
   const shapes::Cloud torus = shapes::torus(4000, shapes::Sampling::jittered, 101);
   const Laplacian cloud = pointCloudLaplacian(torus.points);

@@ -68,6 +68,26 @@ TEST_F(OperatorFolder, GivesEveryCommandTheBitsOfTheFile) {
   }
 }
 
+TEST_F(OperatorFolder, HasTheTrianglesOfAMesh) {
+  const std::string file = dir_.write("mesh.off", tetrahedron);
+  run({"laplacian", file, "--format", "npz,ply,cover", "--out", in("folder")});
+  const std::vector<std::vector<std::string>> calls = {
+      {"distance", "--face", "2,3,2,1"},
+      {"distance", "--source", "1", "--face", "2,3,2,1", "--matrix"},
+      {"signed-distance", "--method", "marching", "--face", "2,3,2,1"},
+      {"trace", "--face", "2,3,2,1", "--direction", "1,2,3", "--length", "0.4"}};
+  for (std::size_t k = 0; k < calls.size(); ++k) {
+    SCOPED_TRACE(calls[k][0]);
+    std::vector<std::string> from_file = calls[k], from_folder = calls[k];
+    const std::string one = "file" + std::to_string(k), other = "again" + std::to_string(k);
+    from_file.insert(from_file.end(), {file, "--out", in(one)});
+    from_folder.insert(from_folder.end(), {"--operator", in("folder"), "--out", in(other)});
+    run(from_file);
+    run(from_folder);
+    expectSameArrays(one, other);
+  }
+}
+
 TEST_F(OperatorFolder, NeedsACoverOnlyForWhatFollowsItsFaces) {
   run({"laplacian", dir_.write("mesh.off", tetrahedron), "--out", in("mesh")});
   run({"laplacian", dir_.write("cloud.xyz", sphere(500)), "--out", in("cloud")});

@@ -140,7 +140,7 @@ MESH = torus_mesh(10, 8)
      "signed_distance: curve has 400, must lie in [0, 400)"),
     (lambda: tufted.PointCloud(CLOUD).signed_distance([3, 400]),
      "signed_distance: curve has 400, must lie in [0, 400)"),
-    (lambda: tufted.PointCloud(CLOUD).weights(3), "weights: handles must be a list of points"),
+    (lambda: tufted.PointCloud(CLOUD).weights(3), "weights: handles = 3, must be a list"),
     (lambda: tufted.PointCloud(CLOUD).weights([3, 400]), "weights: handles has 400, must lie in [0, 400)"),
     (lambda: tufted.PointCloud(CLOUD).weights([3, [3, 4]]), "weights: point 3 is of handle 0 and of handle 1"),
     (lambda: tufted.PointCloud(CLOUD).segments(method="cut"), "segments: method = 'cut', must be one of"),

@@ -61,7 +61,7 @@ def test_thin_is_what_read_thins():
     ({"where": "lable=0"}, "read: where = 'lable=0': 'lable' is no field"), ({"where": "label=7"}, "none of the"),
     ({"crop": [0, 1, 2]}, "crop has the shape"), ({"crop": [1, 0, 0, 0, 1, 1]}, "read: the lower corner of crop"),
     ({"polygon": [(0, 0), (1, 1)]}, "at least 3"), ({"polygon": np.zeros((4, 3))}, "polygon has rows of 3"),
-    ({"thin": -1}, "thin: spacing = -1"), ({"thin": "1"}, "read: thin = '1', must be a number")])
+    ({"thin": -1}, "read: thin = -1"), ({"thin": "1"}, "read: thin = '1', must be a number")])
 def test_choices_that_are_refused(choice, fault):
     with pytest.raises(tufted.InvalidInput, match=fault):
         tufted.read(DATASETS / "two_sheets.ply", **choice)

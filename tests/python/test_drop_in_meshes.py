@@ -295,7 +295,7 @@ def marched(V, F, *curves):
     (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([]), "must have at least one source"),
     (lambda V, F: pp3d.MeshSignedHeatSolver(V, F, 0), "MeshSignedHeatSolver: t_coef = 0, must be finite and above 0"),
     (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([], points=[99]), "points has 99, must lie in"),
-    (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([[]]), "MeshSignedHeatSolver: curves is empty"),
+    (lambda V, F: pp3d.MeshSignedHeatSolver(V, F).compute_distance([[]]), "compute_distance: curves is empty"),
     (lambda V, F: marched(V, F, []), "curves has no place, must have at least one"),
     (lambda V, F: marched(V, F, [[3, 4]]), "curves has the place 3, must be a tuple as (index, [])"),
     (lambda V, F: pp3d.write_mesh(V, F, "m.obj", V[:, :2]), "write_mesh: UV_coords is given, must be None without"),

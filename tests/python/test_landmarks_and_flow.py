@@ -19,8 +19,14 @@ def test_distances_of_landmarks_are_those_of_single_queries(mesh):
     assert len(stages) == 3
     with pytest.raises(tufted.InvalidInput, match="distance_matrix: sources has 1800"):
         mesh.distance_matrix([0, 1800])
+    cloud = tufted.PointCloud(np.vstack([CLOUD, [[np.nan] * 3]]))
+    assert np.isinf(cloud.distance_matrix([0, 3000])[:, 1]).all()
     with pytest.raises(tufted.InvalidInput, match="^distance_matrix: no source lies on a component"):
-        tufted.PointCloud(np.vstack([CLOUD, [[np.nan] * 3]])).distance_matrix([0, 3000])
+        cloud.distance_matrix([3000])
+    inside = mesh.distance_matrix([5], faces=[7], barycentric=[[1, 1, 1]])
+    np.testing.assert_array_equal(inside[:, 1], mesh.distance(faces=[7], barycentric=[[1, 1, 1]]))
+    with pytest.raises(tufted.InvalidInput, match="^distance_matrix: source 1 lies inside a triangle"):
+        mesh.distance_matrix([5], faces=[7], barycentric=[[1, 1, 1]], symmetric=True)
 
 
 def test_ways_through_points_keep_their_class_on_clouds():

@@ -80,6 +80,11 @@ inline std::vector<Algorithm> algorithms(int threads = 0, double unit = 1) {
            [=](const Laplacian& laplacian, const Points&) -> MatrixXd {
              return DistanceSolver(laplacian, {.solver = solver}).query(sources);
            }},
+          {"DistanceSolver::matrix", true, 1, INFINITY,
+           [=](const Laplacian& laplacian, const Points&) -> MatrixXd {
+             const std::vector<SurfacePoint> places = {SurfacePoint::vertex(3), SurfacePoint::vertex(40)};
+             return DistanceSolver(laplacian, {.solver = solver}).matrix(places, true);
+           }},
           {"pointsWithin", true, 1, -1,
            [=](const Laplacian& laplacian, const Points&) -> MatrixXd {
              MatrixXd distance = MatrixXd::Constant(std::ssize(laplacian.status), 1, -unit);

@@ -141,7 +141,8 @@ class Surface:
                        barycentric: ArrayLike | None = None, method: _Method = "marching", split: int | None = None,
                        maximum: float | None = None, time_step: float | None = None, unit: _Unit = None,
                        open_boundary: bool | None = None, progress: _Progress = None) -> tuple[_Floats, _Integers]: ...
-    def distance_matrix(self, sources: ArrayLike, *, symmetric: bool = False, method: _Method = "marching",
+    def distance_matrix(self, sources: ArrayLike = (), *, faces: ArrayLike | None = None,
+                        barycentric: ArrayLike | None = None, symmetric: bool = False, method: _Method = "marching",
                         split: int | None = None, maximum: float | None = None, time_step: float | None = None,
                         unit: _Unit = None, open_boundary: bool | None = None,
                         progress: _Progress = None) -> _Floats: ...

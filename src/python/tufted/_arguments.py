@@ -2,7 +2,10 @@
 argument.
 """
 import contextlib
+import functools
+import inspect
 import os
+import re
 
 import numpy as np
 import scipy.sparse
@@ -10,6 +13,16 @@ import scipy.sparse
 from ._tufted import Cancelled, InvalidInput, IoError, SolverFailure
 
 _LARGEST = 2**31 - 1
+
+
+# Arguments of robust_laplacian, potpourri3d and read(), and what messages of other functions call them.
+_OURS = {
+    "verts": ["points"], "mollify_factor": ["mollify"], "n_neighbors": ["neighbors"], "P": ["points"], "V": ["points"],
+    "F": ["faces"], "p_ind": ["sources", "source"], "p_inds": ["sources"], "v_ind": ["sources", "source"],
+    "v_inds": ["sources"], "vector": ["vectors"], "curves": ["curve"], "v_start": ["start"], "v_end": ["end"],
+    "v_list": ["points"], "start_vert": ["source"], "start_face": ["source"], "direction_xyz": ["direction"],
+    "bary_coords": ["barycentric"], "u": ["field"], "isoval": ["values"], "thin": ["spacing"],
+}
 
 
 @contextlib.contextmanager
@@ -20,12 +33,32 @@ def named(function, **names):
     try:
         yield
     except (InvalidInput, SolverFailure) as error:
-        text = str(error)
-        where, _, what = text.partition(": ")
+        what = re.sub(r"^[\w:]+: ", "", str(error))
         for ours, theirs in names.items():
             if what.startswith(ours + " "):
                 what = theirs + what[len(ours):]
-        raise type(error)(f"{function}: {what or where}") from None
+                break
+        raise type(error)(f"{function}: {what}") from None
+
+
+def public(function):
+    """Gives errors of a function, or of the constructor and the public methods of a class, the name that the user
+    called, also where they come from another function.
+    """
+    if inspect.isclass(function):
+        for name, method in list(vars(function).items()):
+            if inspect.isfunction(method) and (name == "__init__" or not name.startswith("_")):
+                setattr(function, name, public(method))
+        return function
+    arguments = inspect.signature(function).parameters
+    names = {ours: theirs for theirs in arguments for ours in _OURS.get(theirs, ()) if ours not in arguments}
+
+    @functools.wraps(function)
+    def called(*given, **options):
+        is_constructor = function.__name__ == "__init__"
+        with named(type(given[0]).__name__ if is_constructor else function.__name__, **names):
+            return function(*given, **options)
+    return called
 
 
 def array(function, name, value):
@@ -53,9 +86,19 @@ def _shape(array):
     return " x ".join(str(length) for length in array.shape) or "()"
 
 
-def rows_of_three(function, name, value, rows=None):
-    """N x 3 float64 in C order; such an array is not copied."""
+def values(function, name, value):
+    """One number or several, as a one-dimensional float64 array."""
     array = _numbers(function, name, value)
+    if array.ndim > 1:
+        raise InvalidInput(f"{function}: {name} has the shape {_shape(array)}, must be one number or a list")
+    return array.reshape(-1)
+
+
+def rows_of_three(function, name, value, rows=None, or_one=False):
+    """N x 3 float64 in C order; such an array is not copied. With or_one three values are one row."""
+    array = _numbers(function, name, value)
+    if or_one and array.shape == (3,):
+        array = array[None]
     if array.size == 0 and array.ndim < 2:
         array = array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3 or rows not in (None, array.shape[0]):
@@ -96,6 +139,11 @@ def indices(function, name, value, count, empty=False):
     if wrong.size:
         raise InvalidInput(f"{function}: {name} has {wrong[0]}, must lie in [0, {count})")
     return array
+
+
+def lists_of_indices(function, name, value, count):
+    """Several lists of indices in [0, count), as int32 arrays."""
+    return [indices(function, name, each, count) for each in items(function, name, value)]
 
 
 def triangles(function, name, value):
@@ -148,6 +196,24 @@ def whole(function, name, value, least):
     return int(value)
 
 
+def flag(function, name, value):
+    """A boolean; None and numbers count as Python takes them."""
+    try:
+        return bool(value)
+    except (TypeError, ValueError):  # an array, say
+        raise InvalidInput(f"{function}: {name} = {value!r}, must be True or False") from None
+
+
+def items(function, name, value):
+    """The items of a list, or of anything else that has some; a text has none."""
+    try:
+        if isinstance(value, (str, bytes, dict)):
+            raise TypeError
+        return list(value)
+    except TypeError:
+        raise InvalidInput(f"{function}: {name} = {value!r}, must be a list") from None
+
+
 def text(function, name, value):
     if not isinstance(value, str):
         raise InvalidInput(f"{function}: {name} is a {type(value).__name__}, must be a text")
@@ -166,13 +232,21 @@ def report(function, progress, fraction):
         raise Cancelled(f"{function}: progress returned False")
 
 
-def write(path, content):
+def path(function, name, value):
+    """The name of a file or folder. Numbers, by which open() takes files that are open already, are refused."""
+    try:
+        return os.fsdecode(value)
+    except TypeError:
+        raise InvalidInput(f"{function}: {name} = {value!r}, must be the name of a file or folder") from None
+
+
+def write(file_name, content):
     """Writes bytes to a file, which is replaced; raises IoError with its name."""
     try:
-        with open(path, "wb") as file:
+        with open(file_name, "wb") as file:
             file.write(content)
-    except OSError as error:
-        raise IoError(f"{os.fspath(path)}: cannot write: {error.strerror or error}") from None
+    except (OSError, ValueError) as error:  # ValueError: a name with the character 0
+        raise IoError(f"{file_name}: cannot write: {getattr(error, 'strerror', None) or error}") from None
 
 
 def sparse(parts, size):

@@ -13,7 +13,7 @@ from ._tufted import InvalidInput
 
 
 def _solving(function, threads, solver, memory_limit):
-    if solver not in ("automatic", "cholesky", "multigrid"):
+    if check.text(function, "solver", solver) not in ("automatic", "cholesky", "multigrid"):
         raise InvalidInput(f"{function}: solver = {solver!r}, must be one of 'automatic', 'cholesky', 'multigrid'")
     return {"solver": solver, "memory_limit": check.whole(function, "memory_limit", memory_limit, 0),
             "threads": check.whole(function, "threads", threads, 0)}
@@ -26,6 +26,7 @@ def _pixels(function, points, image, origin):
     return _tufted.image_structure(int(size[0]), int(size[1]), origin)
 
 
+@check.public
 class PointCloud(Surface):
     """The Laplacian of a point cloud, built by the constructor.
 
@@ -75,8 +76,9 @@ class PointCloud(Surface):
                 raise InvalidInput(f"{name}: neighborhoods must be {len(points)} x k, one row per point")
         structure = self._structure(name, points, image, rings, viewpoint)
         options = {
-            "preset": preset, "neighbors": check.whole(name, "neighbors", neighbors, 3), "gluing": gluing,
-            "delaunay": delaunay, "order": order, "seed": check.whole(name, "seed", seed, 0),
+            "preset": preset, "neighbors": check.whole(name, "neighbors", neighbors, 3),
+            "gluing": check.text(name, "gluing", gluing), "delaunay": check.text(name, "delaunay", delaunay),
+            "order": check.text(name, "order", order), "seed": check.whole(name, "seed", seed, 0),
             "mollify": check.number(name, "mollify", mollify), "threads": solving["threads"],
             "viewpoint": None if viewpoint is None else viewpoint.copy(),
             "structure": "none" if structure is None else "image" if rings is None else "rings",
@@ -115,6 +117,7 @@ class PointCloud(Surface):
         return _tufted.triangles(self._laplacian, check.callback("triangles", progress))
 
 
+@check.public
 class Mesh(Surface):
     """The Laplacian of a triangle mesh of any connectivity, built by the constructor.
 
@@ -136,8 +139,8 @@ class Mesh(Surface):
         solving = _solving(name, threads, solver, memory_limit)
         points = check.rows_of_three(name, "points", points)
         faces = check.triangles(name, "faces", faces)
-        options = {"order": order, "seed": check.whole(name, "seed", seed, 0),
-                   "mollify": check.number(name, "mollify", mollify), "weld": bool(weld),
+        options = {"order": check.text(name, "order", order), "seed": check.whole(name, "seed", seed, 0),
+                   "mollify": check.number(name, "mollify", mollify), "weld": check.flag(name, "weld", weld),
                    "threads": solving["threads"]}
         laplacian = _tufted.build_mesh(points, faces, options, check.callback(name, progress))
         super().__init__(laplacian, points, faces, solving, options)
@@ -166,6 +169,7 @@ class Mesh(Surface):
         return self._frame_parts()
 
 
+@check.public
 def denoise(points, *, image=None, viewpoint=None, threads=0, progress=None):
     """Moves the points of a noisy scan onto the surface, without a radius to choose.
 
@@ -188,10 +192,11 @@ def denoise(points, *, image=None, viewpoint=None, threads=0, progress=None):
     *denoised, sentences = _tufted.denoise(points, structure, check.whole(name, "threads", threads, 0),
                                            check.callback(name, progress))
     for sentence in filter(None, [*sentences, _tufted.hovering_warning(points) if structure is None else ""]):
-        warnings.warn(f"denoise: {sentence}", TuftedWarning, stacklevel=2)
+        warnings.warn(f"denoise: {sentence}", TuftedWarning, stacklevel=3)
     return Denoised(*denoised)
 
 
+@check.public
 def thin(points, spacing):
     """Thins points to a Poisson disk sample: no two of the chosen points are closer than `spacing`, and every other
     point is closer than that to a chosen one. The same positions are chosen in whatever order the points are given.
@@ -204,10 +209,14 @@ def thin(points, spacing):
 
 def _selection(where, crop, polygon, spacing):
     box = [] if crop is None else check.columns("read", "crop", crop, 6)[0].ravel()
-    corners = np.zeros((0, 2)) if polygon is None else check.columns("read", "polygon", polygon, len(polygon))[0]
+    corners = np.zeros((0, 2))
+    if polygon is not None:
+        polygon = check.items("read", "polygon", polygon)
+        corners, _ = check.columns("read", "polygon", polygon, len(polygon))
     if corners.shape[1] != 2:
         raise InvalidInput(f"read: polygon has rows of {corners.shape[1]} numbers, must be x, y")
-    return _tufted.Selection([where] if isinstance(where, str) else list(where), box, corners,
+    where = [where] if isinstance(where, str) else check.items("read", "where", where)
+    return _tufted.Selection([check.text("read", "where", each) for each in where], box, corners,
                              check.number("read", "thin", spacing))
 
 
@@ -217,6 +226,7 @@ def _set_geometry(surface, geometry, source):
     return surface
 
 
+@check.public
 def read(path, *, kind="automatic", weld=False, where=(), crop=None, polygon=None, thin=0, image=None, rings=None,
          normals=False, progress=None, **options):
     """Reads a cloud or a mesh from a file and builds its Laplacian, as `tufted laplacian` does.
@@ -238,11 +248,14 @@ def read(path, *, kind="automatic", weld=False, where=(), crop=None, polygon=Non
     options: those of PointCloud or Mesh; the default for viewpoint is that of the file.
     Returns a PointCloud or a Mesh. Raises IoError if the file cannot be read.
     """
-    path = os.fspath(path)
+    path = check.path("read", "path", path)
     has_rings = rings is not None and rings is not False
+    image = None if image is None else check.flag("read", "image", image)
+    normals = check.flag("read", "normals", normals)
     if image and has_rings:
         raise InvalidInput("read: image and rings are both given, must be one at most")
-    geometry = _tufted.read_file(path, kind, bool(weld), check.callback("read", progress),
+    geometry = _tufted.read_file(path, check.text("read", "kind", kind), check.flag("read", "weld", weld),
+                                 check.callback("read", progress),
                                  _selection(where, crop, polygon, thin))
     if geometry.is_mesh:
         for name, value in (("image", image), ("rings", has_rings), ("normals", normals)):
@@ -275,6 +288,7 @@ def read(path, *, kind="automatic", weld=False, where=(), crop=None, polygon=Non
 _LOADED = {"npz": "L.npz", "ply": "points.ply", "pcd": "points.pcd", "las": "points.las", "cover": "cover.npz"}
 
 
+@check.public
 def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=None):
     """Loads the last result that save() or `tufted laplacian` wrote into a directory, which needs formats npz and ply,
     pcd or las.
@@ -284,7 +298,7 @@ def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=N
     threads, solver, memory_limit, progress: as in PointCloud.
     Returns a PointCloud or a Mesh. Raises IoError for a file that is missing, damaged or does not fit the others.
     """
-    directory = os.fspath(directory)
+    directory = check.path("load", "directory", directory)
     solving = _solving("load", threads, solver, memory_limit)
     laplacian = _tufted.load(directory, True)
     files = _tufted.files_of_result(directory)

@@ -1,7 +1,4 @@
 """The methods of Surface that measure distances, or carry values and vectors along the surface."""
-import os
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 
 from . import _arguments as check
@@ -10,26 +7,13 @@ from ._results import Isoline, LogMap, Path, Trace
 from ._tufted import InvalidInput
 
 
-def _in_threads(call, count, threads):
-    """Yields the results of call(0), ..., call(count - 1), on at most `threads` threads, 0: one per processor. Calls
-    that have not begun are left out if the caller stops.
-    """
-    if threads == 1:
-        yield from map(call, range(count))
-        return
-    pool = ThreadPoolExecutor(threads or os.cpu_count())
-    try:
-        yield from pool.map(call, range(count))
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
 def _is_place(item):
     """Whether an item of a curve is a place, an index or (face, barycentric coordinates), and not a curve."""
     return not hasattr(item, "__len__") or (
         len(item) == 2 and not hasattr(item[0], "__len__") and hasattr(item[1], "__len__") and len(item[1]) == 3)
 
 
+@check.public
 class Distances:
     def distance(self, sources=(), *, faces=None, barycentric=None, method="marching", split=None, maximum=None,
                  time_step=None, unit=None, open_boundary=None, progress=None):
@@ -68,34 +52,21 @@ class Distances:
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.nearest(places, check.callback("nearest_source", progress))
 
-    def distance_matrix(self, sources, *, symmetric=False, method="marching", split=None, maximum=None, time_step=None,
-                        unit=None, open_boundary=None, progress=None):
-        """The geodesic distance of every point from each of some sources, as `tufted distance --matrix`: the sources
-        are marched from at once on as many threads as the surface may use. Each must lie on a component.
+    def distance_matrix(self, sources=(), *, faces=None, barycentric=None, symmetric=False, method="marching",
+                        split=None, maximum=None, time_step=None, unit=None, open_boundary=None, progress=None):
+        """The geodesic distance of every point from each of some sources, as `tufted distance --matrix`, with as many
+        sources at once as the surface may use threads.
 
-        sources: S indices. method, split, maximum, time_step, unit, open_boundary: as in distance().
+        sources, faces, barycentric, method, split, maximum, time_step, unit, open_boundary: as in distance().
         symmetric: whether the distances between sources, found from either end, are replaced by the mean of both. They
-        differ by some thousandths of the largest distance on smooth surfaces, on coarse meshes by up to 6 %.
-        Returns N x S, length.
+        differ by some thousandths of the largest distance on smooth surfaces, on coarse meshes by up to 6 %. All
+        sources then must be points.
+        Returns N x S, length, a column for each of `sources`, then of `faces`; infinite where no path leads.
         """
-        where = check.indices("distance_matrix", "sources", sources, len(self))
-        progress = check.callback("distance_matrix", progress)
+        places = self._places("distance_matrix", sources, faces, barycentric)
+        symmetric = check.flag("distance_matrix", "symmetric", symmetric)
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
-        found = np.empty((len(self), where.size), order="F")
-
-        def fill(k):
-            place = self._places("distance_matrix", where[k:k + 1], None, None)
-            found[:, k] = solver.query(place, None)
-
-        with check.named("distance_matrix"):
-            for done, _ in enumerate(_in_threads(fill, where.size, self._solving["threads"]), 1):
-                check.report("distance_matrix", progress, done / where.size)
-        if symmetric:
-            rows = self.representative[where]
-            between = found[rows]
-            found[rows] = (between + between.T) / 2
-            found = found[self.representative]
-        return found
+        return solver.matrix(places, symmetric, check.callback("distance_matrix", progress))
 
     def points_within(self, sources, radius, *, split=None, progress=None):
         """Finds the points whose geodesic distance from the nearest of some sources is at most a radius. On a cloud
@@ -145,7 +116,7 @@ class Distances:
             if outside.size:
                 raise InvalidInput(f"path_through: points has {outside[0]}, must be corners of triangles()")
         solver = self._keep("path through", lambda: self._path_solver("path_through", progress))
-        return Path(*solver.through(stops, bool(closed), progress))
+        return Path(*solver.through(stops, check.flag("path_through", "closed", closed), progress))
 
     def _path_solver(self, function, progress):
         """The solver of path(); for path_through() on a cloud, one on triangles(), which do not overlap."""
@@ -197,11 +168,11 @@ class Distances:
         [1.0]
         """
         field, _ = check.columns("isolines", "field", field, len(self))
-        values, _ = check.columns("isolines", "values", np.atleast_1d(values), np.size(values))
+        values = check.values("isolines", "values", values)
         if field.shape[1] != 1:
             raise InvalidInput(f"isolines: field has {field.shape[1]} columns, must have one")
         found = _tufted.isolines(self._laplacian.positions, self._joined_faces("isolines"), field[:, 0],
-                                 values[:, 0], check.callback("isolines", progress))
+                                 values, check.callback("isolines", progress))
         return [Isoline(*line) for line in found]
 
     def extend(self, sources, values, *, time_step=4.0, progress=None):
@@ -228,7 +199,7 @@ class Distances:
         Returns N x 3 tangent vectors; 0 where no path leads.
         """
         where = check.indices("transport", "sources", sources, len(self))
-        vectors = check.rows_of_three("transport", "vectors", np.atleast_2d(vectors), where.size)
+        vectors = check.rows_of_three("transport", "vectors", vectors, where.size, or_one=True)
         time_step = check.number("transport", "time_step", time_step)
         progress = check.callback("transport", progress)
         solver = self._keep("transport", lambda: _tufted.TransportSolver(
@@ -241,9 +212,9 @@ class Distances:
         source: index of an active point.
         axis: direction of the first coordinate, 3 values; None: the tangent at the source, of frames with the normals
         of normals().
-        method: "exact", shortest paths over the triangles, in a time that grows with N^1.5, refused where triangles are so
-        thin that lines wind without an end, or "heat", the vector heat method: fast queries on millions of points, but
-        angles are off by some degrees.
+        method: "exact", shortest paths over the triangles, in a time that grows with N^1.5, refused where triangles are
+        so thin that lines wind without an end, or "heat", the vector heat method: fast queries on millions of points,
+        but angles are off by some degrees.
         time_step: of heat, as in extend(); None: 4.
         Returns coordinates (N x 2, distance times cosine and sine of the angle; NaN where no path leads) and axes (2 x
         3, the directions of the coordinates at the source).
@@ -252,6 +223,7 @@ class Distances:
         if where.size != 1:
             raise InvalidInput(f"log_map: source has {where.size} indices, must be one")
         self._need_cover("log_map")
+        method = check.text("log_map", "method", method)
         if method == "exact" and time_step is not None:
             raise InvalidInput(f'log_map: time_step = {time_step!r}, must be None unless method is "heat"')
         time_step = 4.0 if time_step is None else check.number("log_map", "time_step", time_step)
@@ -281,6 +253,7 @@ class Distances:
         array([-0.5, -0.5,  0.5,  0.5])
         """
         name = "signed_distance"
+        method = check.text(name, "method", method)
         if method == "marching" and time_step is not None:
             raise InvalidInput(f'{name}: time_step = {time_step!r}, must be None unless method is "heat"')
         if method == "heat" and split is not None:
@@ -290,18 +263,21 @@ class Distances:
         settings = (method, None if split is None else check.whole(name, "split", split, 0),
                     4.0 if time_step is None else check.number(name, "time_step", time_step))
         progress = check.callback(name, progress)
-        curve = curve if hasattr(curve, "__len__") else [curve]
-        several = [curve] if all(_is_place(place) for place in curve) else curve
+        curve = [curve] if isinstance(curve, (int, np.integer)) else check.items(name, "curve", curve)
+        several = [curve] if all(map(_is_place, curve)) else curve
         with check.named(name, sources="curve", faces="curve", points="sources"):
-            curves = [self._curve(name, one) for one in several] if len(curve) else []
+            curves = [self._curve(name, check.items(name, "curve", one)) for one in several] if curve else []
         with check.named(name, points="sources"):
-            points = self._places(name, sources, faces, barycentric) if faces is not None or np.size(sources) else []
+            sources = check.array(name, "sources", sources)
+            points = self._places(name, sources, faces, barycentric) if faces is not None or sources.size else []
             solver = self._keep(name, lambda: _tufted.SignedDistanceSolver(
                 self._laplacian, *self._signed_frames(), *settings, self._solver(), progress), settings)
             return solver.query(curves, points, progress)
 
     def _curve(self, function, places):
         """The places of a curve, in order."""
+        if not all(map(_is_place, places)):
+            raise InvalidInput(f"{function}: curve has a place that is none, must be indices and (face, (a, b, c))")
         in_face = [hasattr(place, "__len__") for place in places]
         inside = [place for place, has_face in zip(places, in_face) if has_face]
         found = self._places(function, [place for place, has_face in zip(places, in_face) if not has_face],
@@ -321,12 +297,13 @@ class Distances:
                 raise InvalidInput(f"{function}: faces is given, must be None for a cloud")
             inside = check.indices(function, "faces", faces, len(self._faces))
             coordinates = check.rows_of_three(function, "barycentric",
-                                              np.atleast_2d(() if barycentric is None else barycentric), inside.size)
+                                              () if barycentric is None else barycentric, inside.size, or_one=True)
         corners = self.representative[self._faces] if inside.size else np.zeros((0, 3), np.int32)
         return _tufted.surface_points(self.representative[where], self._points, corners, inside, coordinates)
 
     def _distance_solver(self, method, split, maximum, time_step, unit, open_boundary, progress):
         self._need_cover("distance")
+        method = check.text("distance", "method", method)
         if method == "marching":
             for name, value in (("time_step", time_step), ("unit", unit), ("open_boundary", open_boundary)):
                 if value is not None:
@@ -334,6 +311,7 @@ class Distances:
         settings = (method, None if split is None else check.whole("distance", "split", split, 0),
                     np.inf if maximum is None else check.number("distance", "maximum", maximum),
                     0.5 if time_step is None else check.number("distance", "time_step", time_step),
-                    "mean" if unit is None else unit, True if open_boundary is None else bool(open_boundary))
+                    "mean" if unit is None else check.text("distance", "unit", unit),
+                    open_boundary is None or check.flag("distance", "open_boundary", open_boundary))
         return self._keep("distance", lambda: _tufted.DistanceSolver(
             self._laplacian, *settings, self._solver(), check.callback("distance", progress)), settings)

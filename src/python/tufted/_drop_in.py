@@ -13,11 +13,13 @@ _DISTANCE_STEP, VECTOR_STEP = 0.5, 4.0
 
 
 def _matrices(surface, dummy, return_mass):
-    (data, indices, indptr), areas = surface._laplacian.take_matrices(bool(dummy))
+    dummy, return_mass = check.flag("laplacian", "dummy", dummy), check.flag("laplacian", "return_mass", return_mass)
+    (data, indices, indptr), areas = surface._laplacian.take_matrices(dummy)
     L = check.sparse((data, indices, indptr), len(surface))
     return (L, scipy.sparse.diags(areas, format="csc")) if return_mass else L
 
 
+@check.public
 def point_cloud_laplacian(points, mollify_factor=_tufted.default_mollify, n_neighbors=30, return_mass=True, *,
                           preset="scan", dummy=True, threads=0, progress=None):
     """Builds L and M of a point cloud, as robust_laplacian.point_cloud_laplacian.
@@ -29,19 +31,18 @@ def point_cloud_laplacian(points, mollify_factor=_tufted.default_mollify, n_neig
     threads: at most this many; 0: one per processor.
     Returns L and M, N x N csc_matrix: L positive semidefinite, minus the Laplacian; M diagonal, length^2.
     """
-    with check.named("point_cloud_laplacian", mollify="mollify_factor", neighbors="n_neighbors"):
-        cloud = PointCloud(points, preset, n_neighbors, mollify=mollify_factor, threads=threads, progress=progress)
+    cloud = PointCloud(points, preset, n_neighbors, mollify=mollify_factor, threads=threads, progress=progress)
     return _matrices(cloud, dummy, return_mass)
 
 
+@check.public
 def mesh_laplacian(verts, faces, mollify_factor=_tufted.default_mollify, return_mass=True, *, dummy=True, threads=0,
                    progress=None):
     """Builds L and M of a triangle mesh, as robust_laplacian.mesh_laplacian.
 
     verts: V x 3. faces: F x 3. All else as in point_cloud_laplacian().
     """
-    with check.named("mesh_laplacian", mollify="mollify_factor", points="verts"):
-        mesh = Mesh(verts, faces, mollify=mollify_factor, threads=threads, progress=progress)
+    mesh = Mesh(verts, faces, mollify=mollify_factor, threads=threads, progress=progress)
     return _matrices(mesh, dummy, return_mass)
 
 
@@ -76,16 +77,20 @@ class _HeatSolver(OnSurface):
 
     def _signed(self, curves, level_set_constraint, solver=None):
         """The signed distance from curves, each a list of indices; infinite where no path leads."""
-        if level_set_constraint != "ZeroSet":
-            raise InvalidInput(f"{type(self).__name__}: level_set_constraint = {level_set_constraint!r}, must be "
-                               "'ZeroSet': each curve has the distance 0")
-        name = type(self).__name__
-        checked = [check.indices(name, "curves", curve, len(self._surface)) for curve in curves]
+        require_zero_set(level_set_constraint)
+        name = "compute_signed_distance"
+        checked = check.lists_of_indices(name, "curves", curves, len(self._surface))
         if not checked:
             raise InvalidInput(f"{name}: curves is empty, must have at least one")
         if solver is None:
             return nearest_of([self._surface.signed_distance(checked, time_step=VECTOR_STEP * self._t_coef)])
         return nearest_of([solver.query([self._surface._curve(name, curve) for curve in checked], [], None)])
+
+
+def require_zero_set(level_set_constraint):
+    if check.text("signed_distance", "level_set_constraint", level_set_constraint) != "ZeroSet":
+        raise InvalidInput(f"signed_distance: level_set_constraint = {level_set_constraint!r}, must be 'ZeroSet': each "
+                           "curve has the distance 0")
 
 
 def nearest_of(distances):
@@ -96,6 +101,7 @@ def nearest_of(distances):
     return np.take_along_axis(table, abs(table).argmin(axis=0)[None], axis=0)[0]
 
 
+@check.public
 class _Vectors(_HeatSolver):
     def get_tangent_frames(self):
         """The x axes, the y axes and the normals of the points: three arrays of N x 3."""
@@ -105,9 +111,9 @@ class _Vectors(_HeatSolver):
     def _extended(self, sources, values):
         return self._surface.extend(sources, values, time_step=VECTOR_STEP * self._t_coef)
 
-    def _transported(self, sources, vectors, name):
+    def _transported(self, sources, vectors):
         surface = self._surface
-        where = check.indices("transport_tangent_vectors", name, sources, len(surface))
+        where = check.indices("transport_tangent_vectors", "sources", sources, len(surface))
         table, _ = check.columns("transport_tangent_vectors", "vectors", vectors, where.size)
         if table.shape[1] != 2:
             raise InvalidInput(f"transport_tangent_vectors: vectors has {table.shape[1]} columns, must have 2")
@@ -116,17 +122,18 @@ class _Vectors(_HeatSolver):
                                     time_step=VECTOR_STEP * self._t_coef)
         return np.einsum("nj,nij->ni", carried, tangents)
 
-    def _log_map(self, source, name):
+    def _log_map(self, source):
         surface = self._surface
-        where = check.indices("compute_log_map", name, source, len(surface))
+        where = check.indices("compute_log_map", "source", source, len(surface))
         if where.size != 1:
-            raise InvalidInput(f"compute_log_map: {name} has {where.size} indices, must be one")
+            raise InvalidInput(f"compute_log_map: source has {where.size} indices, must be one")
         source = where[0]
         x, y = surface.frames[source, :2]
         coordinates, axes = surface.log_map(source, axis=x)
         return coordinates * [1.0, np.sign(axes[1] @ y)]  # negated where log_map() turned the normal
 
 
+@check.public
 class PointCloudHeatSolver(_Vectors):
     """Distances, vectors and log map on a cloud, as potpourri3d.PointCloudHeatSolver.
 
@@ -134,8 +141,7 @@ class PointCloudHeatSolver(_Vectors):
     """
 
     def __init__(self, P, t_coef=1.0, **options):
-        with check.named("PointCloudHeatSolver", points="P"):
-            super().__init__(PointCloud(P, **options), t_coef)
+        super().__init__(PointCloud(P, **options), t_coef)
 
     def compute_distance(self, p_ind):
         """Geodesic distances from point p_ind by the heat method: N values; infinite where no path leads."""
@@ -151,15 +157,15 @@ class PointCloudHeatSolver(_Vectors):
 
     def transport_tangent_vector(self, p_ind, vector):
         """Transports a tangent vector of point p_ind, 2 coordinates in its frame, to all: N x 2 in their frames."""
-        return self._transported([p_ind], [vector], "p_ind")
+        return self._transported([p_ind], [vector])
 
     def transport_tangent_vectors(self, p_inds, vectors):
         """Transports tangent vectors, S x 2 in the frames of p_inds, to all points: N x 2 in their frames."""
-        return self._transported(p_inds, vectors, "p_inds")
+        return self._transported(p_inds, vectors)
 
     def compute_log_map(self, p_ind):
         """The logarithmic map around point p_ind: N x 2, along the first two axes of its frame."""
-        return self._log_map(p_ind, "p_ind")
+        return self._log_map(p_ind)
 
     def compute_signed_distance(self, curves, cloud_normals, preserve_source_normals=False,
                                 level_set_constraint="ZeroSet", soft_level_set_weight=-1):
@@ -176,6 +182,7 @@ class PointCloudHeatSolver(_Vectors):
         return self._signed(curves, level_set_constraint, solver)
 
 
+@check.public
 class MeshHeatMethodDistanceSolver(_HeatSolver):
     """Distances on a mesh, as potpourri3d.MeshHeatMethodDistanceSolver.
 
@@ -184,8 +191,7 @@ class MeshHeatMethodDistanceSolver(_HeatSolver):
     """
 
     def __init__(self, V, F, t_coef=1.0, use_robust=True, **options):
-        with check.named("MeshHeatMethodDistanceSolver", points="V", faces="F"):
-            super().__init__(Mesh(V, F, **options), t_coef)
+        super().__init__(Mesh(V, F, **options), t_coef)
 
     def compute_distance(self, v_ind):
         """Geodesic distances from vertex v_ind by the heat method: N values; infinite where no path leads."""
@@ -196,6 +202,7 @@ class MeshHeatMethodDistanceSolver(_HeatSolver):
         return self._distances(v_inds)
 
 
+@check.public
 class _MeshVectors(_Vectors):
     def extend_scalar(self, v_inds, values):
         """Extends values from the vertices v_inds to all: N values, nearly those of the nearest source."""
@@ -203,13 +210,14 @@ class _MeshVectors(_Vectors):
 
     def transport_tangent_vector(self, v_ind, vector):
         """Transports a tangent vector of vertex v_ind, 2 coordinates in its frame, to all: N x 2 in their frames."""
-        return self._transported([v_ind], [vector], "v_ind")
+        return self._transported([v_ind], [vector])
 
     def transport_tangent_vectors(self, v_inds, vectors):
         """Transports tangent vectors, S x 2 in the frames of v_inds, to all vertices: N x 2 in their frames."""
-        return self._transported(v_inds, vectors, "v_inds")
+        return self._transported(v_inds, vectors)
 
 
+@check.public
 class MeshVectorHeatSolver(_MeshVectors):
     """Extension, vector transport and log map on a mesh, as potpourri3d.MeshVectorHeatSolver.
 
@@ -219,8 +227,7 @@ class MeshVectorHeatSolver(_MeshVectors):
 
     def __init__(self, V, F, t_coef=1.0, use_intrinsic_delaunay=True, **options):
         options.pop("useIntrinsicDelaunay", None)  # the name in potpourri3d's README
-        with check.named("MeshVectorHeatSolver", points="V", faces="F"):
-            super().__init__(Mesh(V, F, **options), t_coef)
+        super().__init__(Mesh(V, F, **options), t_coef)
 
     def get_connection_laplacian(self):
         """The connection Laplacian, N x N complex csc_matrix, Hermitian: L with each off-diagonal multiplied by the
@@ -243,12 +250,13 @@ class MeshVectorHeatSolver(_MeshVectors):
         """The logarithmic map around vertex v_ind: N x 2, along the first two axes of its frame. strategy:
         "VectorHeat", "AffineLocal" or "AffineAdaptive", which all give Surface.log_map().
         """
-        if strategy not in ("VectorHeat", "AffineLocal", "AffineAdaptive"):
+        if check.text("compute_log_map", "strategy", strategy) not in ("VectorHeat", "AffineLocal", "AffineAdaptive"):
             raise InvalidInput(f"compute_log_map: strategy = {strategy!r}, must be one of 'VectorHeat', 'AffineLocal', "
                                "'AffineAdaptive'")
-        return self._log_map(v_ind, "v_ind")
+        return self._log_map(v_ind)
 
 
+@check.public
 class PolygonMeshHeatSolver(_MeshVectors):
     """Distances and vectors on a mesh of polygons, as potpourri3d.PolygonMeshHeatSolver; each polygon of more than
     three corners is cut into triangles.
@@ -257,8 +265,7 @@ class PolygonMeshHeatSolver(_MeshVectors):
     """
 
     def __init__(self, V, F, t_coef=1.0):
-        with check.named("PolygonMeshHeatSolver", points="V", faces="F"):
-            super().__init__(Mesh(V, triangulated("PolygonMeshHeatSolver", V, F)), t_coef)
+        super().__init__(Mesh(V, triangulated("PolygonMeshHeatSolver", V, F)), t_coef)
 
     def compute_distance(self, v_inds):
         """Geodesic distances from the nearest of the vertices v_inds: N values; infinite where no path leads."""
@@ -274,11 +281,12 @@ class PolygonMeshHeatSolver(_MeshVectors):
 def triangulated(function, V, F):
     """The triangles of polygons, F x 3 int32."""
     points = check.rows_of_three(function, "V", V)
-    polygons = [check.indices(function, "F", polygon, len(points)) for polygon in F]
+    polygons = check.lists_of_indices(function, "F", F, len(points))
     corners = np.concatenate([np.zeros(0, np.int32), *polygons])
     return _tufted.triangulate(points, corners, np.array([len(each) for each in polygons], np.int32))
 
 
+@check.public
 def compute_distance(V, F, v_ind):
     """Geodesic distances from one vertex of a mesh, N values. For several queries MeshHeatMethodDistanceSolver is
     faster.
@@ -286,6 +294,7 @@ def compute_distance(V, F, v_ind):
     return MeshHeatMethodDistanceSolver(V, F).compute_distance(v_ind)
 
 
+@check.public
 def compute_distance_multisource(V, F, v_inds):
     """Geodesic distances from the nearest of several vertices of a mesh, N values."""
     return MeshHeatMethodDistanceSolver(V, F).compute_distance_multisource(v_inds)

@@ -4,12 +4,14 @@ import numpy as np
 from . import _arguments as check
 from . import _tufted
 from ._clouds import Mesh, PointCloud
-from ._drop_in import VECTOR_STEP, OnSurface, checked_coefficient, nearest_of
+from ._drop_in import VECTOR_STEP, OnSurface, checked_coefficient, nearest_of, require_zero_set
 from ._drop_in_files import edges
 from ._tufted import InvalidInput
 
 # Coordinates below this count as 0: the caller has computed them.
 _ROUNDING = 1e-12
+# Begins messages about places; @check.public replaces it by the name of the method.
+_PLACES = "places"
 
 
 class _MeshPlaces(OnSurface):
@@ -17,30 +19,25 @@ class _MeshPlaces(OnSurface):
     of edges(), or (face, [a, b]) and (face, [a, b, c]), barycentric coordinates.
     """
 
-    def __init__(self, function, V, F):
-        with check.named(function, points="V", faces="F"):
-            super().__init__(Mesh(V, F))
+    def __init__(self, V, F):
+        super().__init__(Mesh(V, F))
         self._edges = edges(V, self._surface.faces)
-        self._name = function
 
-    def _position(self, place, name="curves"):
+    def _position(self, place, name):
         """The vertices of its edge or face that a place lies between, and their weights; of a vertex it alone. `name`
         is the argument that has the place.
         """
-        try:
-            index, *rest = place
-        except TypeError:
-            raise InvalidInput(f"{self._name}: {name} has the place {place!r}, must be a tuple as (index, [])") \
-                from None
-        given = np.asarray(rest[0] if rest else [], np.float64).reshape(-1)
+        if not isinstance(place, (tuple, list)) or len(place) not in (1, 2):
+            raise InvalidInput(f"{_PLACES}: {name} has the place {place!r}, must be a tuple as (index, [])")
+        index, given = place[0], check.values(_PLACES, name, place[1] if len(place) == 2 else [])
         if given.size == 0:
-            return check.indices(self._name, name, index, len(self._surface)), np.ones(1)
+            return check.indices(_PLACES, name, index, len(self._surface)), np.ones(1)
         corners = self._edges if given.size == 1 else self._surface.faces
-        index = check.indices(self._name, name, index, len(corners))[0]
+        index = check.indices(_PLACES, name, index, len(corners))[0]
         weights = {1: lambda: np.append(1 - given, given), 2: lambda: np.append(given, 1 - given.sum())}.get(
             given.size, lambda: given)()
         if weights.size > 3 or not (weights >= -_ROUNDING).all() or not weights.sum() > 0:
-            raise InvalidInput(f"{self._name}: {name} has the coordinates {given}, must be one to three in [0, 1]")
+            raise InvalidInput(f"{_PLACES}: {name} has the coordinates {given}, must be one to three in [0, 1]")
         used = weights > _ROUNDING
         return corners[index][used], weights[used]
 
@@ -53,33 +50,33 @@ class _MeshPlaces(OnSurface):
         corners = self._surface.faces[face]
         return np.array([weights[vertices == corner].sum() for corner in corners])
 
-    def _along(self, curve, name="curves"):
+    def _along(self, curve, name):
         """The places of a curve for Surface.signed_distance(), each in a face that also has the next one, if any has. A
         vertex stays one.
         """
-        places = [self._position(place, name) for place in curve]
+        places = [self._position(place, name) for place in check.items(_PLACES, name, curve)]
         found = []
         for (vertices, weights), (ahead, _) in zip(places, places[1:] + places[-1:]):
             face = self._face_around(np.union1d(vertices, ahead))
             face = face if face >= 0 else self._face_around(vertices)
             if face < 0:
-                raise InvalidInput(f"{self._name}: {name} has the vertex {vertices[0]}, must be a corner of a face")
+                raise InvalidInput(f"{_PLACES}: {name} has the vertex {vertices[0]}, must be a corner of a face")
             found.append((face, self._in_face(face, vertices, weights)))
         return found
 
     def _marched(self, curves, points=()):
         """The signed distances by marching from curves and points; a curve of one place is a point."""
-        single = [curve for curve in curves if len(curve) == 1]
-        inside = [place for curve in single for place in self._along(curve)]
+        along = [self._along(curve, "curves") for curve in check.items(_PLACES, "curves", curves)]
+        inside = [places[0] for places in along if len(places) == 1]
         inside += [place for point in points for place in self._along([point], "points")]
-        curves = [self._along(curve) for curve in curves if len(curve) > 1]
+        curves = [places for places in along if len(places) > 1]
         if not curves and not inside:
-            raise InvalidInput(f"{self._name}: curves has no place, must have at least one")
+            raise InvalidInput(f"{_PLACES}: curves has no place, must have at least one")
         faces, weights = zip(*inside) if inside else (None, None)
-        with check.named(self._name, curve="curves"):
-            return self._surface.signed_distance(curves, faces=faces, barycentric=weights, method="marching")
+        return self._surface.signed_distance(curves, faces=faces, barycentric=weights, method="marching")
 
 
+@check.public
 class MeshFastMarchingDistanceSolver(_MeshPlaces):
     """Distances from curves on a mesh by marching, as potpourri3d.MeshFastMarchingDistanceSolver.
 
@@ -87,7 +84,7 @@ class MeshFastMarchingDistanceSolver(_MeshPlaces):
     """
 
     def __init__(self, V, F):
-        super().__init__("MeshFastMarchingDistanceSolver", V, F)
+        super().__init__(V, F)
 
     def compute_distance(self, curves, distances=(), sign=False):
         """Distances from the nearest of some curves: N values; infinite where no path leads.
@@ -97,12 +94,14 @@ class MeshFastMarchingDistanceSolver(_MeshPlaces):
         distances: those at the places, which must be 0 or left out.
         sign: whether distances to the right of the curves are negative.
         """
-        if any(np.any(np.asarray(values) != 0) for values in distances):
+        distances = check.items("compute_distance", "distances", distances)
+        if any(np.any(check.values("compute_distance", "distances", values) != 0) for values in distances):
             raise InvalidInput("compute_distance: distances has values, must be 0 or empty")
         found = nearest_of([self._marched(curves)])
-        return found if sign else abs(found)
+        return found if check.flag("compute_distance", "sign", sign) else abs(found)
 
 
+@check.public
 class MeshSignedHeatSolver(_MeshPlaces):
     """Signed distances from curves on a mesh by heat, as potpourri3d.MeshSignedHeatSolver.
 
@@ -110,7 +109,7 @@ class MeshSignedHeatSolver(_MeshPlaces):
     """
 
     def __init__(self, V, F, t_coef=1.0):
-        super().__init__("MeshSignedHeatSolver", V, F)
+        super().__init__(V, F)
         self._time_step = VECTOR_STEP * checked_coefficient("MeshSignedHeatSolver", t_coef)
 
     def compute_distance(self, curves, curve_signs=(), points=(), preserve_source_normals=False,
@@ -123,19 +122,21 @@ class MeshSignedHeatSolver(_MeshPlaces):
         points: places, or indices of vertices, from which distances have no sign; these are by marching.
         level_set_constraint: must be "ZeroSet". preserve_source_normals, soft_level_set_weight: ignored.
         """
-        if level_set_constraint != "ZeroSet":
-            raise InvalidInput(f"compute_distance: level_set_constraint = {level_set_constraint!r}, must be 'ZeroSet'")
-        signs = list(curve_signs) or [True] * len(curves)
+        require_zero_set(level_set_constraint)
+        curves = check.items("compute_distance", "curves", curves)
+        signs = check.items("compute_distance", "curve_signs", curve_signs) or [True] * len(curves)
+        signs = [check.flag("compute_distance", "curve_signs", sign) for sign in signs]
         if len(signs) != len(curves):
             raise InvalidInput(f"compute_distance: curve_signs has {len(signs)} values, must have {len(curves)}")
-        signed = [self._along(curve) for curve, sign in zip(curves, signs) if sign]
+        signed = [self._along(curve, "curves") for curve, sign in zip(curves, signs) if sign]
         unsigned = [curve for curve, sign in zip(curves, signs) if not sign]
-        points = [point if isinstance(point, (tuple, list)) else (point, []) for point in points]
-        with check.named(self._name, curve="curves"):
-            found = [self._surface.signed_distance(signed, time_step=self._time_step)] if signed else []
+        points = [point if isinstance(point, (tuple, list)) else (point, [])
+                  for point in check.items("compute_distance", "points", points)]
+        found = [self._surface.signed_distance(signed, time_step=self._time_step)] if signed else []
         return nearest_of(found + ([abs(self._marched(unsigned, points))] if unsigned or points else []))
 
 
+@check.public
 class MeshMarchingTrianglesSolver(_MeshPlaces):
     """Lines on which a field has a value, as potpourri3d.MeshMarchingTrianglesSolver.
 
@@ -143,7 +144,7 @@ class MeshMarchingTrianglesSolver(_MeshPlaces):
     """
 
     def __init__(self, V, F):
-        super().__init__("MeshMarchingTrianglesSolver", V, F)
+        super().__init__(V, F)
 
     def marching_triangles(self, u, isoval=0.0):
         """The lines on which u, N values, equals isoval: a list of lists of (edge, [t]), rows of edges() and how far
@@ -151,8 +152,7 @@ class MeshMarchingTrianglesSolver(_MeshPlaces):
         of the edges there is given.
         """
         isoval = check.number("marching_triangles", "isoval", isoval)
-        with check.named("marching_triangles", field="u", values="isoval"):
-            lines = self._surface.isolines(u, isoval)
+        lines = self._surface.isolines(u, isoval)
         values = np.asarray(u, np.float64).reshape(-1)[self._edges] - isoval
         finite = np.isfinite(values).all(axis=1)
         crossed = np.flatnonzero(finite & ((values[:, 0] >= 0) != (values[:, 1] >= 0)))
@@ -170,6 +170,7 @@ class MeshMarchingTrianglesSolver(_MeshPlaces):
         return found
 
 
+@check.public
 def marching_triangles(V, F, u, isoval=0.0):
     """The lines on which u, N values at V (N x 3), equals isoval, on the triangles F: as
     MeshMarchingTrianglesSolver.marching_triangles().
@@ -177,14 +178,15 @@ def marching_triangles(V, F, u, isoval=0.0):
     return MeshMarchingTrianglesSolver(V, F).marching_triangles(u, isoval)
 
 
+@check.public
 class _MeshLines(OnSurface):
     """Base of the classes below. t_coef is ignored, as it is in potpourri3d."""
 
     def __init__(self, V, F, t_coef=1.0):
-        with check.named(type(self).__name__, points="V", faces="F"):
-            super().__init__(Mesh(V, F))
+        super().__init__(Mesh(V, F))
 
 
+@check.public
 class EdgeFlipGeodesicSolver(_MeshLines):
     """Straight paths and loops on a mesh, as potpourri3d.EdgeFlipGeodesicSolver.
 
@@ -195,24 +197,22 @@ class EdgeFlipGeodesicSolver(_MeshLines):
         """A shortest path between the vertices v_start and v_end: K x 3 points. max_iterations and
         max_relative_length_decrease are ignored: paths are always straightened to the end.
         """
-        with check.named("find_geodesic_path", start="v_start", end="v_end"):
-            return self._surface.path(v_start, v_end).points
+        return self._surface.path(v_start, v_end).points
 
     def find_geodesic_path_poly(self, v_list, max_iterations=None, max_relative_length_decrease=None):
         """The way through the vertices v_list, straightened: K x 3 points from the first to the last. max_iterations
         and max_relative_length_decrease are ignored.
         """
-        with check.named("find_geodesic_path_poly", points="v_list"):
-            return self._surface.path_through(v_list).points
+        return self._surface.path_through(v_list).points
 
     def find_geodesic_loop(self, v_list, max_iterations=None, max_relative_length_decrease=None):
         """The closed way through the vertices v_list, straightened: K x 3 points, the first one not repeated; a single
         one where the loop contracts. max_iterations and max_relative_length_decrease are ignored.
         """
-        with check.named("find_geodesic_loop", points="v_list"):
-            return self._surface.path_through(v_list, closed=True).points
+        return self._surface.path_through(v_list, closed=True).points
 
 
+@check.public
 class GeodesicTracer(_MeshLines):
     """Straight lines on a mesh, as potpourri3d.GeodesicTracer.
 
@@ -241,11 +241,11 @@ class GeodesicTracer(_MeshLines):
         size = np.linalg.norm(normal)
         normal = normal / size if size > 0 else normal
         length = np.linalg.norm(direction - (direction @ normal) * normal)
-        with check.named(function, direction="direction_xyz", barycentric="bary_coords"):
-            points = self._surface.trace(where, direction, length, barycentric=barycentric).points
+        points = self._surface.trace(where, direction, length, barycentric=barycentric).points
         return points if most is None else points[:check.whole(function, "max_iterations", most, 0) + 1]
 
 
+@check.public
 class PointCloudLocalTriangulation:
     """The triangles around each point of a cloud, as potpourri3d.PointCloudLocalTriangulation.
 
@@ -253,8 +253,7 @@ class PointCloudLocalTriangulation:
     """
 
     def __init__(self, P, with_degeneracy_heuristic=True, **options):
-        with check.named("PointCloudLocalTriangulation", points="P"):
-            self._surface = PointCloud(P, **options)
+        self._surface = PointCloud(P, **options)
 
     def get_local_triangulation(self):
         """The triangles with each point as a corner, of the union of all stars after flips: N x K x 3 indices, the

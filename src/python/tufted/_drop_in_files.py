@@ -10,14 +10,16 @@ from ._shape import lumped_areas, scaled, triangle_areas
 from ._tufted import InvalidInput
 
 
+@check.public
 def read_mesh(filename):
     """Reads the vertices, V x 3 float64, and the faces, F x 3 int32, of the file filename; polygons are cut into
     triangles.
     """
-    geometry = _tufted.read_file(filename, "mesh", False, None)
+    geometry = _tufted.read_file(check.path("read_mesh", "filename", filename), "mesh", False, None)
     return np.array(geometry.points), np.array(geometry.triangles)
 
 
+@check.public
 def read_polygon_mesh(filename):
     """Reads the vertices, V x 3 float64, and the faces, a list of lists of indices, of the file filename; polygons
     of more than three corners are cut into triangles.
@@ -26,11 +28,14 @@ def read_polygon_mesh(filename):
     return points, triangles.tolist()
 
 
+@check.public
 def read_point_cloud(filename):
     """Reads the points of the file filename, N x 3 float64; faces are ignored."""
+    filename = check.path("read_point_cloud", "filename", filename)
     return np.array(_tufted.read_file(filename, "cloud", False, None).points)
 
 
+@check.public
 def write_mesh(V, F, filename, UV_coords=None, UV_type=None):
     """Writes a mesh to an OBJ, PLY or OFF file, by the ending of its name.
 
@@ -39,13 +44,13 @@ def write_mesh(V, F, filename, UV_coords=None, UV_type=None):
     Raises IoError if the file cannot be written.
     """
     points = check.rows_of_three("write_mesh", "V", V)
-    polygons = [check.indices("write_mesh", "F", polygon, len(points)).tolist() for polygon in F]
+    polygons = [polygon.tolist() for polygon in check.lists_of_indices("write_mesh", "F", F, len(points))]
     uv, corners = np.zeros((0, 2)), None
     if UV_coords is not None and UV_type is None:  # potpourri3d would leave them out without a word
         raise InvalidInput("write_mesh: UV_coords is given, must be None without UV_type")
     if UV_type is not None:
         counts = {"per-vertex": len(points), "per-face": len(polygons), "per-corner": sum(map(len, polygons))}
-        if UV_type not in counts:
+        if check.text("write_mesh", "UV_type", UV_type) not in counts:
             raise InvalidInput(f"write_mesh: UV_type = {UV_type!r}, must be None, 'per-vertex', 'per-face' or "
                                "'per-corner'")
         uv, _ = check.columns("write_mesh", "UV_coords", UV_coords, counts[UV_type])
@@ -55,6 +60,7 @@ def write_mesh(V, F, filename, UV_coords=None, UV_type=None):
     _write(filename, points, polygons, uv, corners)
 
 
+@check.public
 def write_point_cloud(V, filename):
     """Writes points, N x 3, to an OBJ, PLY or OFF file, by the ending of its name filename; a file of that name is
     replaced. Raises IoError if it cannot be written.
@@ -63,7 +69,8 @@ def write_point_cloud(V, filename):
 
 
 def _write(filename, points, polygons, uv, corners):
-    ending = os.path.splitext(os.fspath(filename))[1].lower()
+    filename = check.path("write", "filename", filename)
+    ending = os.path.splitext(filename)[1].lower()
     rows = [f"{x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
     if ending == ".obj":
         def corner(face, k, vertex):
@@ -79,28 +86,32 @@ def _write(filename, points, polygons, uv, corners):
                  "property list int int vertex_indices", "end_header"])
         lines = [*head, *rows, *faces]
     else:
-        raise InvalidInput(f"write_mesh: filename = {os.fspath(filename)!r}, must end in .obj"
+        raise InvalidInput(f"write: filename = {filename!r}, must end in .obj"
                            + (" to hold UV_coords" if corners else ", .ply or .off"))
     check.write(filename, "\n".join([*lines, ""]).encode("ascii"))
 
 
+@check.public
 def face_areas(V, F):
     """The areas of triangles F (F x 3) with the corners V (N x 3): F values."""
     points, faces, unit = _triangles("face_areas", V, F)
     return triangle_areas(points, faces) * unit * unit
 
 
+@check.public
 def vertex_areas(V, F):
     """A third of the areas of the triangles F (F x 3) at each vertex of V (N x 3): N values."""
     points, faces, unit = _triangles("vertex_areas", V, F)
     return lumped_areas(points, faces) * unit * unit
 
 
+@check.public
 def cotan_laplacian(V, F, denom_eps=0.0):
     """The cotan Laplacian of the triangles as they are: N x N csr_matrix, positive semidefinite, without the guarantees
     of mesh_laplacian(). V: N x 3. F: F x 3. denom_eps: added to twice the area of a triangle where it is divided by.
     """
     points, faces, unit = _triangles("cotan_laplacian", V, F)
+    denom_eps = check.number("cotan_laplacian", "denom_eps", denom_eps)
     corners = [points[faces[:, k]] for k in range(3)]
     rows, columns, weights = [], [], []
     for k in range(3):
@@ -116,13 +127,14 @@ def cotan_laplacian(V, F, denom_eps=0.0):
     return (scipy.sparse.diags(np.asarray(adjacency.sum(axis=1)).ravel()) - adjacency).tocsr()
 
 
+@check.public
 def edges(V, F):
     """The edges of polygons F, each once with its lower index first, in ascending order: E x 2 int32. V: N x 3."""
     count = len(check.rows_of_three("edges", "V", V))
     if isinstance(F, np.ndarray) and F.ndim == 2:
         polygons = [check.indices("edges", "F", F.reshape(-1), count, empty=True).reshape(F.shape)]
     else:
-        polygons = [check.indices("edges", "F", polygon, count) for polygon in F]
+        polygons = check.lists_of_indices("edges", "F", F, count)
     pairs = [np.stack([each, np.roll(each, -1, axis=-1)], axis=-1).reshape(-1, 2) for each in polygons]
     pairs = np.sort(np.concatenate([np.zeros((0, 2), np.int32), *pairs]), axis=1).astype(np.int64)
     # A number for each pair, as numbers are sorted much faster than rows.

@@ -12,6 +12,7 @@ def frames_of(normals, tangents):
     return np.stack([tangents, np.cross(normals, tangents), normals], axis=1)
 
 
+@check.public
 class Equations:
     def harmonic(self, pins, values=None, *, progress=None):
         """The harmonic function with given values: L u = 0 at all other points.
@@ -42,9 +43,7 @@ class Equations:
         handles: H indices, or H lists of indices.
         Returns N x H, rows of sum 1; NaN on components without a handle.
         """
-        if not hasattr(handles, "__len__") or isinstance(handles, (str, bytes)):
-            raise InvalidInput("weights: handles must be a list of points, or of lists of points")
-        sets = [check.indices("weights", "handles", handle, len(self)).tolist() for handle in handles]
+        sets = [each.tolist() for each in check.lists_of_indices("weights", "handles", handles, len(self))]
         return _tufted.weights(self._laplacian, sets, self._solver(), check.callback("weights", progress))
 
     def poisson(self, f, pins=None, values=None, *, progress=None):
@@ -60,7 +59,7 @@ class Equations:
             result = self._poisson_solver(progress).poisson(table, progress)
         else:
             where, given, _ = check.pins("poisson", pins, values, len(self))
-            solver = self._interpolation_solver("poisson", "harmonic", where, progress)
+            solver = self._interpolation_solver("harmonic", where, progress)
             result = solver.poisson(table, given, progress)
         return result[:, 0] if flat else result
 
@@ -116,13 +115,12 @@ class Equations:
     def _interpolate(self, function, pins, values, progress):
         where, table, flat = check.pins(function, pins, values, len(self))
         progress = check.callback(function, progress)
-        result = self._interpolation_solver(function, function, where, progress).interpolate(table, progress)
+        result = self._interpolation_solver(function, where, progress).interpolate(table, progress)
         return result[:, 0] if flat else result
 
-    def _interpolation_solver(self, function, kind, where, progress):
-        with check.named(function):
-            return self._keep(kind, lambda: _tufted.InterpolationSolver(
-                self._laplacian, where, kind, self._solver(), progress), where.tobytes())
+    def _interpolation_solver(self, kind, where, progress):
+        return self._keep(kind, lambda: _tufted.InterpolationSolver(
+            self._laplacian, where, kind, self._solver(), progress), where.tobytes())
 
     def _gradients(self, neighbors, regularization, progress):
         if neighbors is not None:

@@ -15,6 +15,7 @@ _ALL_COLUMNS = ("vector", "coordinates", "color", "direction")  # kinds whose co
 _AXES = {"x": [1.0, 0, 0], "y": [0, 1.0, 0], "z": [0, 0, 1.0]}
 
 
+@check.public
 class Figures:
     def picture(self, values=None, *, kind=None, column=None, line=None, size=(1200, 900), camera=None, up=None,
                 color_map=None, range=None, isolines=None, background="white", light=True, legend=True, title=None):
@@ -52,11 +53,10 @@ class Figures:
         if pixels.shape != (2,):
             raise InvalidInput(f"picture: size = {size!r}, must be (width, height)")
         background = check.text("picture", "background", background)
-        with check.named("picture"):
-            return Picture(_tufted.picture(scene, look, pixels.tolist(), background,
-                                           None if ends is None else ends[:, 0],
-                                           None if isolines is None else bool(isolines), bool(light), bool(legend),
-                                           self._solving["threads"]))
+        isolines = None if isolines is None else check.flag("picture", "isolines", isolines)
+        return Picture(_tufted.picture(
+            scene, look, pixels.tolist(), background, None if ends is None else ends[:, 0], isolines,
+            check.flag("picture", "light", light), check.flag("picture", "legend", legend), self._solving["threads"]))
 
     def page(self, values=None, path=None, *, kind=None, column=None, line=None, camera=None, up=None, color_map=None,
              title=None):
@@ -69,10 +69,10 @@ class Figures:
         kind, column, line, camera, up, color_map, title: as in picture(); what the page shows at first.
         Returns the text of the page. A notebook shows it as an interactive view.
         """
+        path = None if path is None else check.path("page", "path", path)
         scene, look = self._scene("page", values, kind, column, line, camera, up, color_map, title,
                                   self._own_fields if values is None else None)
-        with check.named("page"):
-            page = Page(_tufted.page(scene, look))
+        page = Page(_tufted.page(scene, look))
         if path is not None:
             check.write(path, page.encode("utf-8"))
         return page
@@ -100,8 +100,7 @@ class Figures:
         line = np.zeros((0, 3)) if line is None else check.rows_of_three(function, "line",
                                                                         getattr(line, "points", line))
         name = self._source or f"tufted.{type(self).__name__}" if title is None else str(title)
-        with check.named(function, kind="kind"):
-            scene = _tufted.Scene(name, self._points, faces, self._frame_parts()[0], fields, line)
+        scene = _tufted.Scene(name, self._points, faces, self._frame_parts()[0], fields, line)
         shown = -1 if not fields else 0
         color_map = "" if color_map is None else check.text(function, "color_map", color_map)
         look = {"field": shown, "column": _column(function, fields, column), "color_map": color_map,
@@ -155,9 +154,9 @@ def _camera(function, camera):
             raise InvalidInput(f"{function}: camera = {camera!r}, must be 'top' or angles")
         azimuth, elevation = (None, None) if camera is None else (-90.0, 90.0)
         return {"azimuth": azimuth, "elevation": elevation, "zoom": 1.0, "is_parallel": camera == "top"}
-    numbers, _ = check.columns(function, "camera", camera, np.size(camera))
+    numbers = check.values(function, "camera", camera)
     if numbers.size not in (2, 3):
         raise InvalidInput(f"{function}: camera = {camera!r}, must be (azimuth, elevation) or (azimuth, elevation, "
                            "zoom)")
-    azimuth, elevation, zoom = (*numbers[:, 0], 1.0)[:3]
+    azimuth, elevation, zoom = (*numbers, 1.0)[:3]
     return {"azimuth": azimuth, "elevation": elevation, "zoom": zoom, "is_parallel": False}

@@ -11,6 +11,7 @@ from ._tufted import InvalidInput
 _PAIRS = 100
 
 
+@check.public
 def functional_map(source, target, descriptors=None, *, landmarks=(), weights=None, k=30, commutativity=0.03,
                    progress=None):
     """Finds the functional map that carries functions on one shape to another (Ovsjanikov, Ben-Chen, Solomon,
@@ -57,11 +58,11 @@ def functional_map(source, target, descriptors=None, *, landmarks=(), weights=No
     pairs = check.integers(name, "landmarks", landmarks)
     if pairs.size and (pairs.ndim != 2 or pairs.shape[1] != 2):
         raise InvalidInput(f"{name}: landmarks has the shape {' x '.join(map(str, pairs.shape))}, must be P x 2")
-    with check.named(name):
-        return _tufted.functional_map(*_parts(shapes, max(k, _PAIRS), progress), *descriptors, weights, pairs, k,
-                                      commutativity, progress)
+    return _tufted.functional_map(*_parts(shapes, max(k, _PAIRS), progress), *descriptors, weights, pairs, k,
+                                  commutativity, progress)
 
 
+@check.public
 def zoom_out(source, target, start, *, k=100, step=1, samples=1000, progress=None):
     """Refines a map between two shapes by ZoomOut (Melzi, Ren, Rodola, Sharma, Wonka, Ovsjanikov 2019): in turn the map
     from point to point of a functional map, and the functional map with `step` more eigenpairs of that.
@@ -90,6 +91,7 @@ def zoom_out(source, target, start, *, k=100, step=1, samples=1000, progress=Non
         return zoom_out(*_parts(shapes, most, progress), start, k, step, samples, source._solving["threads"], progress)
 
 
+@check.public
 def point_maps(source, target, C, *, progress=None):
     """The maps from point to point in both directions that a functional map stands for: C carries points
     of the source into the space of the target's coefficients, and the nearest ones there correspond (Ovsjanikov et al.
@@ -101,9 +103,7 @@ def point_maps(source, target, C, *, progress=None):
     """
     name = "point_maps"
     shapes, C, progress = _shapes(name, source, target), _matrix(name, "C", C), check.callback(name, progress)
-    with check.named(name):
-        return PointMaps(*_tufted.point_maps(*_parts(shapes, len(C), progress), C, source._solving["threads"],
-                                             progress))
+    return PointMaps(*_tufted.point_maps(*_parts(shapes, len(C), progress), C, source._solving["threads"], progress))
 
 
 def _shapes(function, source, target):

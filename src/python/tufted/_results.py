@@ -131,6 +131,7 @@ class LogMap(NamedTuple):
     axes: np.ndarray
 
 
+@check.public
 class Picture(NamedTuple):
     """A picture of a surface, see Surface.picture(). A notebook shows it.
 
@@ -140,7 +141,7 @@ class Picture(NamedTuple):
 
     def save(self, path):
         """Writes the picture to a file. path: its name, which should end in .png. Raises IoError if it cannot."""
-        check.write(path, self.png)
+        check.write(check.path("save", "path", path), self.png)
 
     def _repr_png_(self):
         return self.png

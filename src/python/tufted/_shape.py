@@ -55,6 +55,7 @@ def _flowed(L, faces, labels, time_step, x):
     return _centered(found, masses, labels)[0]
 
 
+@check.public
 class Shape:
     def normals(self, *, viewpoint=None, up=None, progress=None):
         """Normals of one sign on each component: they agree with their neighbours' and point outwards, or face a
@@ -77,7 +78,7 @@ class Shape:
         2 x 3, of k1 and k2); all but the first are empty with "laplacian".
         """
         rings = 0 if rings is None else check.whole("curvature", "rings", rings, 1)
-        progress = check.callback("curvature", progress)
+        method, progress = check.text("curvature", "method", method), check.callback("curvature", progress)
         mean, gaussian, principal, first, second = _tufted.curvature(
             self._laplacian, *self._signed_frames(None, progress), method, rings,
             self._solving["threads"], progress)
@@ -99,7 +100,7 @@ class Shape:
         where = np.zeros(0, np.int32) if seeds is None else check.indices("segments", "seeds", seeds, len(self))
         crease = check.number("segments", "crease", crease)
         least_points = check.whole("segments", "least_points", least_points, 1)
-        progress = check.callback("segments", progress)
+        method, progress = check.text("segments", "method", method), check.callback("segments", progress)
         if method == "voronoi":
             self._need_cover("segments")
         frames = self._signed_frames(None, progress) if method == "parts" else self._frame_parts()
@@ -123,7 +124,8 @@ class Shape:
         fixed = self._marks("smooth", fixed)
         time_step = check.number("smooth", "time_step", time_step)
         iterations = check.whole("smooth", "iterations", iterations, 1)
-        progress = check.callback("smooth", progress)
+        method, progress = check.text("smooth", "method", method), check.callback("smooth", progress)
+        keep_volume = check.flag("smooth", "keep_volume", keep_volume)
         if method == "implicit" and not keep_volume:
             solver = self._keep("smooth", lambda: _tufted.SmoothingSolver(
                 self._laplacian, time_step, fixed, self._solver(), progress),
@@ -144,7 +146,8 @@ class Shape:
         """
         table, flat = check.columns("smooth_values", "values", values, len(self))
         result = _tufted.smooth_values(
-            self._laplacian, table, method, check.number("smooth_values", "time_step", time_step),
+            self._laplacian, table, check.text("smooth_values", "method", method),
+            check.number("smooth_values", "time_step", time_step),
             check.number("smooth_values", "lambda_", lambda_), check.number("smooth_values", "mu", mu),
             check.whole("smooth_values", "iterations", iterations, 1), self._marks("smooth_values", fixed),
             self._solving["threads"], check.callback("smooth_values", progress))
@@ -217,15 +220,16 @@ class Shape:
             if places.shape[1] != 2:
                 raise InvalidInput(f"parameterize: rim_positions has {places.shape[1]} columns, must have 2")
         if cuts is not None:
-            cuts = [check.indices("parameterize", "cuts", each, len(self)) for each in cuts]
+            cuts = check.lists_of_indices("parameterize", "cuts", cuts, len(self))
         result = Parameterization(*_tufted.parameterize(
-            self._laplacian, self._surface_faces("parameterize"), method, weights, where, places, cuts,
+            self._laplacian, self._surface_faces("parameterize"), check.text("parameterize", "method", method),
+            check.text("parameterize", "weights", weights), where, places, cuts,
             self._solver(), check.callback("parameterize", progress)))
         if cuts is not None:
             result = result._replace(uv=result.uv.reshape(-1, 3, 2))
         if result.collapsed > 0:
             warnings.warn(f"parameterize: {result.collapsed} triangles are lower in the plane than 1e-7 of the map",
-                          TuftedWarning, stacklevel=2)
+                          TuftedWarning, stacklevel=3)
         return result
 
     def minimal_surface(self, fixed=None, *, tolerance=1e-4, max_iterations=300, progress=None):
@@ -262,7 +266,7 @@ class Shape:
         tolerance = check.number("deform", "tolerance", tolerance)
         max_iterations = check.whole("deform", "max_iterations", max_iterations, 1)
         progress = check.callback("deform", progress)
-        settings = method, smoothness, tolerance, max_iterations
+        settings = check.text("deform", "method", method), smoothness, tolerance, max_iterations
         solver = self._keep("deform", lambda: _tufted.DeformationSolver(
             self._laplacian, where, *settings, self._solver(), progress), (where.tobytes(), *settings))
         return Deformation(*solver.deform(places, progress))

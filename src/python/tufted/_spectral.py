@@ -9,6 +9,7 @@ from ._tufted import InvalidInput
 _LEAST_WIDTH = 1e-8  # of wks(): that of waveKernelSignature() in C++, far above the rounding of logarithms
 
 
+@check.public
 class Spectral:
     def spectrum(self, k=None, *, null_space=True, tolerance=1e-10, progress=None):
         """The k smallest eigenvalues of L x = lambda M x, with their eigenvectors.
@@ -46,7 +47,7 @@ class Spectral:
         if times is None:
             times = _tufted.heat_times(pairs, check.whole("hks", "samples", samples, 1))
         else:
-            times = check.columns("hks", "times", times, np.size(times))[0].reshape(-1)
+            times = check.values("hks", "times", times)
         return signature(_tufted.hks(self._laplacian, pairs, times), times=times)
 
     def wks(self, energies=None, *, width=None, k=100, samples=100, spectrum=None, progress=None):
@@ -65,7 +66,7 @@ class Spectral:
             energies = _tufted.wave_energies(pairs, check.whole("wks", "samples", samples, 2))
             width = max(7 * (energies[1] - energies[0]), _LEAST_WIDTH) if width is None else width
         else:
-            energies = check.columns("wks", "energies", energies, np.size(energies))[0].reshape(-1)
+            energies = check.values("wks", "energies", energies)
         if width is None:
             if energies.size < 2:
                 raise InvalidInput("wks: width = None, must be given for fewer than two energies")
@@ -85,7 +86,7 @@ class Spectral:
             check.whole("embed", "dimension", dimension, 1)
         with check.named("embed", k="dimension"):
             pairs = self._pairs(self._count(dimension, 3, False), False, 1e-10, progress)
-        return _tufted.embed(pairs, distance)
+        return _tufted.embed(pairs, check.text("embed", "distance", distance))
 
     def filter(self, values, *, k=100, gain=None, spectrum=None, progress=None):
         """Filters functions on the points by their frequencies: the mean over each component is kept, the part along
@@ -105,20 +106,23 @@ class Spectral:
     def _pairs(self, k, null_space, tolerance, progress):
         k = check.whole("spectrum", "k", k, 1)
         tolerance = check.number("spectrum", "tolerance", tolerance)
-        settings = k, bool(null_space), tolerance
+        settings = k, check.flag("spectrum", "null_space", null_space), tolerance
         return self._keep("spectrum", lambda: _tufted.spectrum(
             self._laplacian, *settings, self._solver(), check.callback("spectrum", progress)), settings)
 
     def _count(self, k, usual, null_space):
         """k or, if it is None, `usual`, but at most as many as there are."""
-        return k if k is not None else max(1, min(usual, _tufted.most_eigenpairs(self._laplacian, bool(null_space))))
+        return k if k is not None else max(1, min(usual, _tufted.most_eigenpairs(
+            self._laplacian, check.flag("spectrum", "null_space", null_space))))
 
     def _positive(self, function, k, spectrum, progress):
         """Pairs of positive eigenvalues: those of `spectrum`, or the first k if it is None."""
         if spectrum is not None:
-            values, vectors = spectrum
-            vectors, _ = check.columns(function, "spectrum", vectors, len(self))
-            return _tufted.Spectrum(np.asarray(values, np.float64), vectors).positive()
+            pair = check.items(function, "spectrum", spectrum)
+            if len(pair) != 2:
+                raise InvalidInput(f"{function}: spectrum has {len(pair)} items, must be values and vectors")
+            vectors, _ = check.columns(function, "spectrum", pair[1], len(self))
+            return _tufted.Spectrum(check.values(function, "spectrum", pair[0]), vectors).positive()
         most = _tufted.most_eigenpairs(self._laplacian, False)
         if most < 1:
             raise InvalidInput(f"{function}: no eigenvalue is positive, must be one: too few points take part")

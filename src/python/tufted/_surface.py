@@ -14,6 +14,7 @@ from ._spectral import Spectral
 from ._tufted import InvalidInput
 
 
+@check.public
 class Surface(Spectral, Distances, Equations, Shape, Figures):
     """L and M of a cloud or a mesh, and the algorithms on them. Made by PointCloud, Mesh, read and load.
 
@@ -105,7 +106,7 @@ class Surface(Spectral, Distances, Equations, Shape, Figures):
     def _warn(self, more=""):
         """Issues the warnings of the build's report, after building or loading, and one more if it is not empty."""
         for sentence in filter(None, [*self.report["warnings"], more]):
-            warnings.warn(f"{self._source or type(self).__name__}: {sentence}", TuftedWarning, stacklevel=3)
+            warnings.warn(f"{self._source or type(self).__name__}: {sentence}", TuftedWarning, stacklevel=4)
 
     def __len__(self):
         return len(self._points)
@@ -140,11 +141,11 @@ class Surface(Spectral, Distances, Equations, Shape, Figures):
         positions: P x 3, or 3 values for a single one.
         Returns P indices, or a single one.
         """
-        single = np.ndim(positions) == 1
+        positions = check.array("nearest", "positions", positions)
         found = _tufted.nearest(self._laplacian, self._points,
-                                check.rows_of_three("nearest", "positions", np.atleast_2d(positions)),
+                                check.rows_of_three("nearest", "positions", positions, or_one=True),
                                 check.callback("nearest", progress))
-        return int(found[0]) if single else found
+        return int(found[0]) if positions.shape == (3,) else found
 
     def validate(self, *, progress=None):
         """Checks what L and M promise: symmetry, signs, row sums, definiteness, and equality with values assembled anew
@@ -184,9 +185,13 @@ class Surface(Spectral, Distances, Equations, Shape, Figures):
         rank.
         Raises IoError if a file cannot be written.
         """
-        formats = [formats] if isinstance(formats, str) else list(self._formats if formats is None else formats)
+        formats = [formats] if isinstance(formats, str) else check.items(
+            "save", "formats", self._formats if formats is None else formats)
+        formats = [check.text("save", "formats", each) for each in formats]
+        directory = check.path("save", "directory", directory)
         geometry = self._geometry or _tufted.Geometry(self._points, self._faces)
-        _tufted.save(directory, self._laplacian, geometry, formats, self._source, sign, bool(dummy), self._options,
+        _tufted.save(directory, self._laplacian, geometry, formats, self._source, check.text("save", "sign", sign),
+                     check.flag("save", "dummy", dummy), self._options,
                      check.callback("save", progress))
 
     # Shared by the base classes
