@@ -64,6 +64,27 @@ TEST_F(View, EverySubcommandShowsItsResult) {
   }
 }
 
+TEST_F(View, OfStandardInputNeedsAName) {
+  const Result unnamed = runTufted({"view", "-"}, cloud_);
+  EXPECT_EQ(unnamed.code, 2);
+  EXPECT_TRUE(contains(unnamed.err, "neither --out nor --png is given")) << unnamed.err;
+  const Result named = runTufted({"view", "-", "--png", in("a.png"), "--size", "200x150"}, cloud_);
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_EQ(sizeOf("a.png"), (std::pair{200, 150}));
+}
+
+TEST_F(View, OfAMeshAsACloudChoosesVertices) {
+  const std::vector<std::string> words = {"view", mesh_, "--where", "x<0.5", "--png", in("a.png")};
+  const Result refused = runTufted(words);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(contains(refused.err, "--as cloud takes its vertices alone")) << refused.err;
+  std::vector<std::string> as_cloud = words;
+  as_cloud.insert(as_cloud.end(), {"--as", "cloud", "--field", "file_row"});
+  const Result chosen = run(as_cloud);
+  EXPECT_TRUE(contains(chosen.out, "chosen")) << chosen.out;
+  EXPECT_TRUE(contains(chosen.out, "fields          file_row\n")) << chosen.out;
+}
+
 TEST_F(View, OfAPathShowsIt) {
   const std::string size = "200x150";
   run({"path", mesh_, "--from", "1", "--to", "2", "--out", in("path"), "--png", in("path.png"), "--view",

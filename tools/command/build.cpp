@@ -58,8 +58,10 @@ void addBuildOptions(CLI::App& command, Build& build) {
        addChoice(
            command, "--structure", build.structure, structures,
            "Neighbours are pixels (image), nearest points (none) or on rings of a scanner; clouds only (automatic)"),
-       command.add_flag("--normals", build.normals,
-                        "Take tangent planes from the normals of FILE; clouds only (planes fitted to the neighbours)"),
+       command.add_flag(
+           "--normals", build.normals,
+           "Take tangent planes from the normals of FILE, which also tell the two sides of thin parts apart; clouds "
+           "only (planes fitted to the neighbours)"),
        command.add_flag(
            "--denoise", build.denoise,
            "Move noisy points onto the surface even with --preset clean, and start from the moved points; clouds only"),

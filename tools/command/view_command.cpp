@@ -33,8 +33,7 @@ beside the file, with `.html` added to its name.
 The page is a single file that needs no network, for any browser with WebGL 2.)";
 
 struct Settings {
-  std::filesystem::path what;
-  ChosenPoints chosen;  ///< of a file
+  Input what;  ///< or a folder, in `file`
   std::vector<std::string> fields;
   Look look;
   std::vector<NamedInput> inputs;
@@ -148,12 +147,14 @@ long long finitePoints(const Scene& scene) {
 
 int runView(Settings& settings) {
   Look& look = settings.look;
+  const std::filesystem::path& what = settings.what.file;
   std::error_code error;
-  const bool is_folder = std::filesystem::is_directory(settings.what, error);
-  if (!look.isWanted())
-    look.page = is_folder ? (settings.what / "view.html").string() : settings.what.string() + ".html";
-  if (is_folder && settings.chosen.isAsked())
-    throw tufted::InvalidInput("--where, --crop, --polygon and --thin apply to a file, and " + settings.what.string() +
+  const bool is_folder = std::filesystem::is_directory(what, error);
+  if (!look.isWanted() && settings.what.isStandardInput())
+    throw tufted::InvalidInput("view of standard input: neither --out nor --png is given, must be one of them");
+  if (!look.isWanted()) look.page = is_folder ? (what / "view.html").string() : what.string() + ".html";
+  if (is_folder && (settings.what.chosen.isAsked() || settings.what.as != tufted::ReadAs::automatic))
+    throw tufted::InvalidInput("--as, --where, --crop, --polygon and --thin apply to a file, and " + what.string() +
                                " is a folder of results");
   checkLook(look, {}, settings.inputs);
   ProgressBar bar(settings.console.quiet);
@@ -162,27 +163,23 @@ int runView(Settings& settings) {
   tufted::Geometry geometry;
   Scene scene;
   if (is_folder) {
-    scene = sceneOfFolder(settings.what, geometry, progress);
+    scene = sceneOfFolder(what, geometry, progress);
   } else {
-    Input input = {.file = settings.what, .chosen = settings.chosen};
-    geometry = settings.chosen.isAsked()
-                   ? readInput(input, progress)
-                   : tufted::read(settings.what, tufted::ReadAs::automatic, tufted::FileFormat::automatic, progress);
-    settings.chosen = input.chosen;
-    scene = sceneOfPoints(settings.what.filename().string(), geometry);
+    geometry = readInput(settings.what, progress);
+    scene = sceneOfPoints(std::filesystem::path(settings.what.name()).filename().string(), geometry);
   }
   const long long finite = finitePoints(scene);
-  if (finite == 0) throw tufted::IoError(settings.what.string() + ": has no finite point to look at");
+  if (finite == 0) throw tufted::IoError(settings.what.name() + ": has no finite point to look at");
   choose(settings.fields, scene);
   lookFromSensor(geometry, look);
-  addPlaceField(look, scene);
+  if (settings.fields.empty() || !look.color.empty()) addPlaceField(look, scene);
   bar.follow(Plan(PlannedStages()));
   progress("write", 0);
   for (tufted::WholeFile& file : prepareLook(scene, look)) file.giveName();
   bar.clear();
   for (const std::string& note : geometry.notes) warn(bar, note);
   Summary summary;
-  const ChosenPoints& chosen = settings.chosen;
+  const ChosenPoints& chosen = settings.what.chosen;
   summary.add("points", "%lld", finite);
   if (chosen.of > 0)
     summary.add("chosen", "%lld of %lld points", static_cast<long long>(chosen.kept),
@@ -196,7 +193,7 @@ int runView(Settings& settings) {
   if (settings.console.quiet) return exit_done;
   std::string text = summary.text(false);
   if (settings.console.json) {
-    nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", "view"}, {"source", settings.what.string()}};
+    nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", "view"}, {"source", settings.what.name()}};
     json["points"] = scene.positions.rows();
     json["triangles"] = scene.triangles.rows();
     json["fields"] = names;
@@ -218,7 +215,9 @@ void addView(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand("view", description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
-  command.add_option("WHAT", settings->what, "Folder of results, or a file of a point cloud or mesh")
+  command
+      .add_option("WHAT", settings->what.file,
+                  "Folder of results, or a file of a point cloud or mesh, - for standard input")
       ->required()
       ->check(notEmpty);
   addText(command, "--out,-o,--view FILE.html", settings->look.page,
@@ -227,7 +226,8 @@ void addView(CLI::App& app, Run& run) {
       .add_option("--field", settings->fields, "Show only this field; may be repeated, in the order of the page (all)")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  addSelection(command, settings->chosen);
+  addChoice(command, "--as", settings->what.as, kinds, "Read a file as a point cloud or as a mesh");
+  addSelection(command, settings->what.chosen);
   addPictureOptions(command, settings->look);
   addConsole(command, settings->console);
   command.callback([&run, &command, settings] {
