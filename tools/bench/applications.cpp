@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/distance_tables.h"
-#include "bench/shape_tables.h"
+#include "bench/tables.h"
 #include "oracles/oracles.h"
 #include "oracles/planar.h"
 #include "shapes/shapes.h"

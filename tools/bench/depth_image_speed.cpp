@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/stage_clock.h"
-#include "bench/pcl_normals.h"
-#include "bench/shape_tables.h"
+#include "bench/pcl_rivals.h"
+#include "bench/tables.h"
 #include "shapes/shapes.h"
 #include "tufted/io/read.h"
 #include "tufted/laplacian_builder.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/depth_views.h"
-#include "bench/shape_tables.h"
+#include "bench/tables.h"
 #include "tufted/denoise.h"
 #include "tufted/laplacian.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/depth_views.h"
-#include "bench/shape_tables.h"
+#include "bench/tables.h"
 #include "tufted/laplacian.h"
 #include "tufted/spectrum.h"
 

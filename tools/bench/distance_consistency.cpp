@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/distance_tables.h"
+#include "bench/real_shapes.h"
+#include "bench/tables.h"
 #include "oracles/planar.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
@@ -96,13 +97,7 @@ void printSymmetry() {
                                    {"Klein bottle", shapes::kleinBottle(48)},
                                    {"slivers", shapes::slivers(24)}})
     print(name, mesh.points, mesh.triangles);
-  std::vector<std::filesystem::path> files;
-  for (const char* folder : {TUFTED_DATA_DIR "/clouds", TUFTED_DATA_DIR "/meshes"}) {
-    if (!std::filesystem::is_directory(folder)) continue;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry);
-  }
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files) {
+  for (const auto& file : filesIn({TUFTED_DATA_DIR "/clouds", TUFTED_DATA_DIR "/meshes"})) {
     try {
       const Geometry geometry = read(file);
       if (geometry.is_mesh)

@@ -1,5 +1,3 @@
-#include "bench/distance_tables.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,8 @@
 #include <vector>
 
 #include "base/stage_clock.h"
+#include "bench/real_shapes.h"
+#include "bench/tables.h"
 #include "oracles/classic_heat.h"
 #include "oracles/geodesics.h"
 #include "oracles/planar.h"
@@ -56,10 +56,7 @@ VectorXd whereActive(VectorXd exact, const Laplacian& laplacian) {
 /// on which its exact search works and is fast enough.
 template <class Visit>
 void forEachMesh(const Visit& visit) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(TUFTED_CGAL_DATA_DIR "/meshes")) files.push_back(entry);
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files) {
+  for (const auto& file : filesIn({TUFTED_CGAL_DATA_DIR "/meshes"})) {
     Geometry geometry;
     try {
       geometry = read(file);

@@ -10,7 +10,7 @@
 
 #include "bench/boolean_shapes.h"
 #include "bench/cotan_weights.h"
-#include "bench/shape_tables.h"
+#include "bench/tables.h"
 #include "shapes/shapes.h"
 #include "tufted/deformation.h"
 

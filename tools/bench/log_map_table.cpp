@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/stage_clock.h"
-#include "bench/distance_tables.h"
+#include "bench/tables.h"
 #include "shapes/shapes.h"
 #include "tufted/io/read.h"
 #include "tufted/tufted.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/moving_least_squares.h"
-#include "bench/shape_tables.h"
+#include "bench/pcl_rivals.h"
+#include "bench/tables.h"
 #include "oracles/oracles.h"
 #include "shapes/distances.h"
 #include "shapes/shapes.h"

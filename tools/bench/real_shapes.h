@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -20,6 +21,16 @@ struct ShapeFile {
   std::filesystem::path path;
   Half half;
 };
+/// The files of folders, sorted; folders that do not exist have none.
+inline std::vector<std::filesystem::path> filesIn(const std::vector<std::filesystem::path>& folders) {
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& folder : folders)
+    if (exists(folder))
+      for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry);
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 /// The meshes of the folder `shapes` (`real/shapes`) and of libcgal-demo that exist.
 std::vector<ShapeFile> shapeFiles(const std::filesystem::path& shapes);
 

@@ -1,5 +1,3 @@
-#include "bench/shape_tables.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +7,9 @@
 #include <vector>
 
 #include "bench/cotan_weights.h"
-#include "bench/moving_least_squares.h"
+#include "bench/pcl_rivals.h"
+#include "bench/real_shapes.h"
+#include "bench/tables.h"
 #include "oracles/oracles.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
@@ -137,12 +137,9 @@ void printMaps() {
 
 void printDisks() {
   std::printf("| mesh | triangles | weights of `L`: flipped | cotan | mean values |\n|---|---|---|---|---|\n");
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(TUFTED_CGAL_DATA_DIR "/meshes")) files.push_back(entry);
-  std::sort(files.begin(), files.end());
   long long sums[3] = {0, 0, 0};
   int meshes = 0;
-  for (const auto& file : files) {
+  for (const auto& file : filesIn({TUFTED_CGAL_DATA_DIR "/meshes"})) {
     try {
       const Geometry geometry = read(file);
       if (geometry.triangles.rows() < 20 || geometry.triangles.rows() > 100000) continue;

@@ -38,12 +38,7 @@ Pinned randomPins(Eigen::Index points, std::uint64_t seed) {
 std::vector<shapes::Mesh> meshesOf(const Settings& settings) {
   constexpr Eigen::Index fewest = 200, most = 12000;  // triangles: with more, all rivals take too long
   std::vector<shapes::Mesh> meshes;
-  std::vector<std::filesystem::path> files;
-  for (const auto& folder : {settings.meshes, settings.real / "shapes"})
-    if (exists(folder))
-      for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry);
-  std::sort(files.begin(), files.end());
-  for (const auto& file : files) {
+  for (const auto& file : filesIn({settings.meshes, settings.real / "shapes"})) {
     shapes::Mesh mesh;
     try {
       const Geometry geometry = read(file, ReadAs::mesh);

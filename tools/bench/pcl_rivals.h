@@ -4,6 +4,11 @@
 
 namespace tufted::bench {
 
+/// Moves points by PCL's MovingLeastSquares.
+/// @param radius radius of the fits, in the points' unit
+/// @param order degree of the polynomials
+Points movedByLeastSquares(const Points& points, double radius, int order);
+
 /// Seconds that PCL takes for the normals of a cloud on one thread.
 struct NormalSeconds {
   double by_neighbors;  ///< pcl::NormalEstimation with 30 neighbours

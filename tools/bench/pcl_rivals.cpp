@@ -1,23 +1,45 @@
-#include "bench/pcl_normals.h"
+#include "bench/pcl_rivals.h"
 
 #include <pcl/features/integral_image_normal.h>
 #include <pcl/features/normal_3d.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
+#include <pcl/surface/mls.h>
 
 #include <cmath>
 
 #include "base/stage_clock.h"
 
 namespace tufted::bench {
+namespace {
 
-NormalSeconds pclNormalSeconds(const Points& points, int width, int height) {
+pcl::PointCloud<pcl::PointXYZ>::Ptr cloudOf(const Points& points) {
   const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   cloud->resize(static_cast<std::size_t>(points.rows()));
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    pcl::PointXYZ& p = (*cloud)[static_cast<std::size_t>(i)];
-    p.getVector3fMap() = points.row(i).transpose().cast<float>();
-  }
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    (*cloud)[static_cast<std::size_t>(i)].getVector3fMap() = points.row(i).transpose().cast<float>();
+  return cloud;
+}
+
+}  // namespace
+
+Points movedByLeastSquares(const Points& points, double radius, int order) {
+  const auto cloud = cloudOf(points);
+  pcl::MovingLeastSquares<pcl::PointXYZ, pcl::PointXYZ> mls;
+  mls.setInputCloud(cloud);
+  mls.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>());
+  mls.setSearchRadius(radius);
+  mls.setPolynomialOrder(order);
+  pcl::PointCloud<pcl::PointXYZ> moved;
+  mls.process(moved);
+  Points result(static_cast<Eigen::Index>(moved.size()), 3);
+  for (Eigen::Index i = 0; i < result.rows(); ++i)
+    result.row(i) = moved[static_cast<std::size_t>(i)].getVector3fMap().transpose().cast<double>();
+  return result;
+}
+
+NormalSeconds pclNormalSeconds(const Points& points, int width, int height) {
+  const auto cloud = cloudOf(points);
   cloud->width = static_cast<std::uint32_t>(width);
   cloud->height = static_cast<std::uint32_t>(height);
   cloud->is_dense = false;

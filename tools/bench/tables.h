@@ -1,9 +1,18 @@
 #pragma once
 
-// Tables about parameterisations and moved points, in Markdown.
+// Tables of the accuracy of the algorithms, in Markdown.
 
 namespace tufted::bench {
 
+void printMeshes();           ///< CGAL's meshes
+void printPaths();            ///< paths on CGAL's meshes and on spheres
+void printNonmanifold();      ///< the paper's Figure 16
+void printSphere();           ///< clouds of the sphere
+void printTorus();            ///< clouds of a torus
+void printSymmetry();         ///< symmetry and slopes of distances, and points not reached
+void printLogMaps();          ///< lines that follow logarithmic maps
+void printSigned();           ///< signed distances from circles, and on real shapes
+void printQuery();            ///< times of queries
 void printMaps();             ///< conformal maps of half spheres and planes
 void printDisks();            ///< harmonic maps of CGAL's meshes that are disks
 void printMinimal();          ///< the catenoid
@@ -14,7 +23,6 @@ void printDenoisedImages();   ///< denoise() of depth images
 void printDepthSpectra();     ///< eigenvalues of a depth image
 void printDepthImageSpeed();  ///< time and memory of depth images
 void printHandles();          ///< deformations of well and badly triangulated solids, and of boolean results
-
-void printWeights();  ///< bounded biharmonic weights on slivers
+void printWeights();          ///< bounded biharmonic weights on slivers
 
 }  // namespace tufted::bench
