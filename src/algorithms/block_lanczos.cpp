@@ -1,11 +1,11 @@
 #include "algorithms/block_lanczos.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "algorithms/tall_matrix.h"
+#include "base/dense_solvers.h"
 #include "base/symmetric_eigen.h"
 
 namespace tufted {
@@ -172,14 +172,14 @@ class BlockLanczos {
       problem_.deflate(all.rightCols(count));
       const MatrixXd products = innerProducts(all, problem_.mass, all.rightCols(count), quiet_);
       const auto known = products.topRows(size_), own = products.bottomRows(count);
-      const Eigen::LLT<MatrixXd> gram(own - known.transpose() * known);
-      if (gram.info() != Eigen::Success) return false;
-      const VectorXd left = gram.matrixLLT().diagonal();
+      const DenseCholesky gram(own - known.transpose() * known);
+      if (!gram.isDefinite()) return false;
+      const VectorXd left = gram.diagonal();
       const double least_share = (left.array() / own.diagonal().array().sqrt()).minCoeff();
       if (!(left.minCoeff() > least) || !(least_share > least_left)) return false;
       least = 0;  // the columns have length 1 from now on
       MatrixXd combination(size_ + count, count);
-      combination.bottomRows(count) = gram.matrixU().solve(MatrixXd::Identity(count, count));
+      combination.bottomRows(count) = gram.inverseOfUpper();
       combination.topRows(size_) = -known * combination.bottomRows(count);
       multiplyInto(all, combination, all.rightCols(count), quiet_);
       if (least_share > mostly_left) return true;

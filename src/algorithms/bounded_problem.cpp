@@ -10,7 +10,7 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "boundedBiharmonicWeights";  // the only caller
+constexpr const char* bounded_problem_name = "boundedBiharmonicWeights";  // the only caller
 /// A weight at a bound is freed if pull() would move it inwards by more than this, in weights. Rounding is about 1e-15.
 /// It is far below `allowed`, because a single weight can hardly move while others stay.
 constexpr double allowed_pull = 1e-12;
@@ -50,7 +50,7 @@ LinearSystem BoundedProblem::factor(const std::vector<State>& state, const Vecto
   for (int i = 0; added.size() > 0 && i < within.outerSize(); ++i)
     for (SparseMatrix::InnerIterator entry(within, i); entry; ++entry)
       if (entry.row() == i) entry.valueRef() += added[i];
-  const SystemNames names = {.function = function_name,
+  const SystemNames names = {.function = bounded_problem_name,
                              .matrix = "L M^-1 L",
                              .if_large = "take fewer points",
                              .if_too_large = IfTooLarge::refuse};
@@ -94,7 +94,7 @@ int BoundedProblem::guess(const Progress& progress, VectorXd u, std::vector<Stat
         upper_aim[i] = (aim + du[i] * d_upper[i]) / slack[i];
         right(i, 0) = -pulled[i] * diagonal_[i] + lower_aim[i] - upper_aim[i];
       }
-      du = system->solve(function_name, right, nullptr, progress, Refine::never).col(0);
+      du = system->solve(bounded_problem_name, right, nullptr, progress, Refine::never).col(0);
       double length = 1;
       const auto bound = [&](double value, double change) {
         if (change < 0) length = std::min(length, -value / change);
@@ -142,7 +142,7 @@ void BoundedProblem::solveFree(const std::vector<State>& state, const Progress& 
     Eigen::MatrixXd missing = Eigen::MatrixXd::Zero(u.size(), 1);
     for (const int i : points_)
       if (is_free(i)) missing(i, 0) = -pulled[i] * diagonal_[i];
-    const Eigen::MatrixXd step = system.solve(function_name, missing, nullptr, progress, Refine::never);
+    const Eigen::MatrixXd step = system.solve(bounded_problem_name, missing, nullptr, progress, Refine::never);
     for (const int i : points_)
       if (is_free(i)) u[i] += step(i, 0);
   }
@@ -188,7 +188,7 @@ int BoundedProblem::solve(const std::vector<std::uint8_t>& is_free, const Progre
       return iteration;
     }
     if (iteration >= options_.max_iterations)
-      throw SolverFailure(std::string(function_name) + ": after " + std::to_string(iteration) + " systems " +
+      throw SolverFailure(std::string(bounded_problem_name) + ": after " + std::to_string(iteration) + " systems " +
                           std::to_string(wrong.size()) + " points have no bound yet, raise max_iterations");
     if (wrong.size() < fewest) {
       fewest = wrong.size();

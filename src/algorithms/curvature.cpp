@@ -23,7 +23,7 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "curvatures";
+constexpr const char* curvature_name = "curvatures";
 
 /// Rings of neighbours in the windows, each some 2.5 times as many points as the one before. Other ratios give the same
 /// errors; 15 rings of 1,200 points lower the error on a noisy sphere, not on a torus, and take 1.4 times as long.
@@ -228,16 +228,16 @@ Curvatures curvatures(const Laplacian& laplacian, const CurvatureOptions& option
 }
 
 Curvatures curvatures(const Laplacian& laplacian, const Frames& frames, const CurvatureOptions& options) {
-  checkFrames(function_name, laplacian, frames);
-  requireChoice(options.method, CurvatureMethod::laplacian, function_name, "method");
+  checkFrames(curvature_name, laplacian, frames);
+  requireChoice(options.method, CurvatureMethod::laplacian, curvature_name, "method");
   if (options.threads < 0)
-    throw InvalidInput(std::string(function_name) + ": threads = " + std::to_string(options.threads) +
+    throw InvalidInput(std::string(curvature_name) + ": threads = " + std::to_string(options.threads) +
                        ", must be >= 0");
   if (options.rings < 0 || options.rings > most_rings)
-    throw InvalidInput(std::string(function_name) + ": rings = " + std::to_string(options.rings) +
+    throw InvalidInput(std::string(curvature_name) + ": rings = " + std::to_string(options.rings) +
                        ", must lie in [0, " + std::to_string(most_rings) + "]");
   if (options.rings > 0 && options.method != CurvatureMethod::fit)
-    throw InvalidInput(std::string(function_name) + ": rings = " + std::to_string(options.rings) +
+    throw InvalidInput(std::string(curvature_name) + ": rings = " + std::to_string(options.rings) +
                        ", must be 0 without CurvatureMethod::fit");
   const Stopwatch watch;
   const Workers workers(options.threads, options.progress);

@@ -16,10 +16,10 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "parameterize";
+constexpr const char* cut_parameterization_name = "parameterize";
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw InvalidInput(std::string(function_name) + ": " + why);
+  throw InvalidInput(std::string(cut_parameterization_name) + ": " + why);
 }
 
 using Edge = std::pair<int, int>;  ///< of two points, the smaller first
@@ -133,7 +133,7 @@ void addPoints(const Laplacian& laplacian, CutSurface& cut) {
 void requireDisks(const CutSurface& cut, const std::set<Edge>& cuts) {
   std::set<int> ends;
   for (const auto& [a, b] : cuts) ends.insert({a, b});
-  for (const Chart& chart : findCharts(function_name, cut.points, cut.triangles)) {
+  for (const Chart& chart : findCharts(cut_parameterization_name, cut.points, cut.triangles)) {
     const bool is_touched = std::any_of(chart.triangles.begin(), chart.triangles.end(), [&](const auto& corners) {
       return std::any_of(corners.begin(), corners.end(), [&](int i) { return ends.count(cut.origin[i]) > 0; });
     });
@@ -150,7 +150,7 @@ void requireDisks(const CutSurface& cut, const std::set<Edge>& cuts) {
 Eigen::MatrixX2d parameterizeCut(const Laplacian& laplacian, const TrianglesRef& triangles,
                                  const std::vector<std::vector<int>>& cuts, const ParameterizationOptions& options,
                                  ParameterizationReport* report) {
-  checkPositions(function_name, laplacian);
+  checkPositions(cut_parameterization_name, laplacian);
   if (!options.rim.empty()) refuse("a rim is given with cuts, must not be");
   if (options.method == ParameterizationMethod::harmonic && options.weights == HarmonicWeights::laplacian)
     refuse("weights are those of L, which has no cuts, must be mean-value weights");

@@ -23,7 +23,7 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "deform";
+constexpr const char* deformation_name = "deform";
 /// Largest smoothness that is accepted. From 1e3 to 1e8 a bent mesh does not change in six digits; at 1e12 rounding
 /// changes it by 0.2 %.
 constexpr double most_smoothness = 1e6;
@@ -45,11 +45,11 @@ void checkOptions(const std::string& function, const DeformationOptions& options
 
 void checkTargets(const std::vector<int>& handles, const PointsRef& targets) {
   if (targets.rows() != std::ssize(handles))
-    throw InvalidInput(std::string(function_name) + ": targets has " + std::to_string(targets.rows()) +
+    throw InvalidInput(std::string(deformation_name) + ": targets has " + std::to_string(targets.rows()) +
                        " rows, must have " + std::to_string(handles.size()) + ", one per handle");
   for (Eigen::Index k = 0; k < targets.rows(); ++k)
     if (!targets.row(k).allFinite())
-      throw InvalidInput(std::string(function_name) + ": the target of point " + std::to_string(handles[k]) +
+      throw InvalidInput(std::string(deformation_name) + ": the target of point " + std::to_string(handles[k]) +
                          " is not finite, must be");
 }
 
@@ -107,7 +107,7 @@ struct DeformationSolver::State {
                      DeformationReport& made) const {
     for (Eigen::Index i = 0; i < x.rows(); ++i)
       if (pinned.pinned[i] != 0) pose.places.row(i) = at_handles.row(i);
-    const RigidDeformation::Result result = rigid->run(function_name, pose, options.tolerance * longest_way,
+    const RigidDeformation::Result result = rigid->run(deformation_name, pose, options.tolerance * longest_way,
                                                        options.max_iterations, options.solver.threads, progress);
     made.iterations = result.iterations;
     made.last_move = frame.toCaller(result.last_move);
@@ -157,7 +157,7 @@ struct DeformationSolver::State {
       }
     }
     if (!std::isfinite(longest_way))
-      throw InvalidInput(std::string(function_name) +
+      throw InvalidInput(std::string(deformation_name) +
                          ": targets lie too far away, must be finite in the surface's size");
     made.longest_way = frame.toCaller(longest_way);
     Pose pose = {x, std::vector<Eigen::Matrix3d>(static_cast<std::size_t>(x.rows()), Eigen::Matrix3d::Identity())};
@@ -193,7 +193,7 @@ Points deform(const Laplacian& laplacian, const std::vector<int>& handles, const
 
 DeformationSolver::DeformationSolver(const Laplacian& laplacian, std::vector<int> handles,
                                      const DeformationOptions& options) {
-  state_ = std::make_unique<const State>(function_name, laplacian, std::move(handles), options);
+  state_ = std::make_unique<const State>(deformation_name, laplacian, std::move(handles), options);
 }
 
 Points DeformationSolver::query(const PointsRef& targets, DeformationReport* report, const Progress& progress) const {

@@ -1,9 +1,9 @@
 #include "algorithms/dense_pairs.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense_solvers.h"
 #include "base/symmetric_eigen.h"
 
 namespace tufted {
@@ -37,7 +37,7 @@ std::optional<Eigenpairs> densePairs(const Eigenproblem& problem, Index wanted) 
   MatrixXd S = denseBlock(L, points, points);
   if (!problem.massless.empty()) {
     const MatrixXd across = denseBlock(L, problem.massless, points);
-    S -= across.transpose() * Eigen::LLT<MatrixXd>(denseBlock(L, problem.massless, problem.massless)).solve(across);
+    S -= across.transpose() * DenseCholesky(denseBlock(L, problem.massless, problem.massless)).solve(across);
   }
   const VectorXd scale = problem.mass(points).cwiseSqrt().cwiseInverse();
   S = scale.asDiagonal() * S * scale.asDiagonal();

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "algorithms/marching_distance.h"
 #include "algorithms/place_in_cover.h"
 #include "base/cover_source.h"
+#include "base/infinity.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/require.h"
@@ -27,20 +27,18 @@
 namespace tufted {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr const char* constructor = "DistanceSolver";
-constexpr const char* query_name = "DistanceSolver::query";
+constexpr const char* distance_constructor = "DistanceSolver";
+constexpr const char* distance_query = "DistanceSolver::query";
 
 void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) {
-  checkSizes(constructor, laplacian);
-  const std::string name = std::string(constructor) + ": ";
-  requireChoice(options.method, DistanceMethod::heat, constructor, "method");
-  requireChoice(options.unit, TimeUnit::adapted_edge, constructor, "unit");
-  checkHeatTime(constructor, options.time_step);
+  checkSizes(distance_constructor, laplacian);
+  const std::string name = std::string(distance_constructor) + ": ";
+  requireChoice(options.method, DistanceMethod::heat, distance_constructor, "method");
+  requireChoice(options.unit, TimeUnit::adapted_edge, distance_constructor, "unit");
+  checkHeatTime(distance_constructor, options.time_step);
   if (!(options.maximum > 0))
     throw InvalidInput(name + "maximum = " + numberText(options.maximum) + ", must be above 0");
-  checkCover(constructor, laplacian);
+  checkCover(distance_constructor, laplacian);
 }
 
 }  // namespace
@@ -83,7 +81,7 @@ void DistanceReport::add(const DistanceReport& other) {
 
 DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions& options) {
   checkArguments(laplacian, options);
-  const int split = checkedSplit(constructor, options.split, laplacian);
+  const int split = checkedSplit(distance_constructor, options.split, laplacian);
   const Stopwatch watch;
   auto state = std::make_unique<State>();
   state->components = findComponents(laplacian);
@@ -110,18 +108,18 @@ const SolverReport& DistanceSolver::report() const {
 
 /// Checks sources, and replaces their corners by the representatives.
 std::vector<SurfacePoint> DistanceSolver::State::checked(const std::vector<SurfacePoint>& sources) const {
-  if (sources.empty()) throw InvalidInput(std::string(query_name) + ": sources is empty, must name at least one");
+  if (sources.empty()) throw InvalidInput(std::string(distance_query) + ": sources is empty, must name at least one");
   std::vector<SurfacePoint> found = sources;
   bool has_one = false;
   for (SurfacePoint& source : found) {
-    checkPlace(query_name, source, static_cast<int>(representative.size()));
+    checkPlace(distance_query, source, static_cast<int>(representative.size()));
     for (int& corner : source.corners) corner = representative[corner];
     has_one |= takesPart(source);
   }
   if (!has_one) {
     int k = 0;
     while (k < 2 && !(sources[0].weights[k] > 0)) ++k;
-    throw InvalidInput(std::string(query_name) +
+    throw InvalidInput(std::string(distance_query) +
                        ": no source lies on a component, must be at least one active point: " +
                        whyOnNone("source", sources[0].corners[k], status[found[0].corners[k]]));
   }
@@ -157,7 +155,7 @@ NearestSources DistanceSolver::State::nearestByHeat(const std::vector<PlaceInCov
     const auto& corners = here[0].point.corners;
     if (std::none_of(corners.begin(), corners.end(), [this](int corner) { return isActive(corner); })) continue;
     DistanceReport one;
-    const VectorXd distance = heat->query(query_name, here, progress, one);
+    const VectorXd distance = heat->query(distance_query, here, progress, one);
     made.add(one);
     for (const int i : components.points) {
       if (!(distance[i] < found.distance[i])) continue;
@@ -182,8 +180,8 @@ VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, Dista
   const Stopwatch watch;
   const std::vector<SurfacePoint> known = state_->checked(sources);
   DistanceReport made;
-  const std::vector<PlaceInCover> places = placesInCover(query_name, *state_->cover, known);
-  NearestSources found{state_->heat->query(query_name, places, progress, made), {}};
+  const std::vector<PlaceInCover> places = placesInCover(distance_query, *state_->cover, known);
+  NearestSources found{state_->heat->query(distance_query, places, progress, made), {}};
   state_->finish(known, found);
   made.seconds = watch.seconds();
   if (report != nullptr) *report = made;
@@ -196,7 +194,7 @@ NearestSources DistanceSolver::nearest(const std::vector<SurfacePoint>& sources,
   const State& state = *state_;
   const std::vector<SurfacePoint> known = state.checked(sources);
   DistanceReport made;
-  const std::vector<PlaceInCover> places = placesInCover(query_name, *state.cover, known);
+  const std::vector<PlaceInCover> places = placesInCover(distance_query, *state.cover, known);
   NearestSources found = state.marching ? state.marching->query(known, places, state.components.of, progress, made)
                                         : state.nearestByHeat(places, progress, made);
   state.finish(known, found);

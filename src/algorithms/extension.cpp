@@ -11,8 +11,8 @@
 namespace tufted {
 namespace {
 
-constexpr const char* constructor = "ExtensionSolver";
-constexpr const char* query_name = "ExtensionSolver::query";
+constexpr const char* extension_constructor = "ExtensionSolver";
+constexpr const char* extension_query = "ExtensionSolver::query";
 
 /// The middle of each column's range, and half its width, or 1 if that is 0. Values are extended relative to these, so
 /// that no digits are lost if they are large beside their range.
@@ -33,8 +33,8 @@ struct ExtensionSolver::State {
 };
 
 ExtensionSolver::ExtensionSolver(const Laplacian& laplacian, const VectorHeatOptions& options)
-    : state_(new State{FieldHeat(constructor, laplacian, nullptr, options, memoryLimit(options.solver.memory_limit))}) {
-}
+    : state_(new State{
+          FieldHeat(extension_constructor, laplacian, nullptr, options, memoryLimit(options.solver.memory_limit))}) {}
 
 double ExtensionSolver::timeStep() const {
   return state_->heat.timeStep();
@@ -48,19 +48,19 @@ Eigen::MatrixXd ExtensionSolver::query(const std::vector<int>& sources, const Ei
                                        VectorHeatReport* report, const Progress& progress) const {
   const Stopwatch watch;
   const FieldHeat& heat = state_->heat;
-  checkSources(query_name, sources, "values", values);
+  checkSources(extension_query, sources, "values", values);
   const Range range(values);
   HeatFields start{Eigen::MatrixXd::Zero(heat.size(), 1 + values.cols()), {}};
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    const int i = heat.place(query_name, sources[s]);
+    const int i = heat.place(extension_query, sources[s]);
     if (i < 0) continue;
     const Eigen::RowVectorXd value = values.row(static_cast<Eigen::Index>(s));
     start.scalars(i, 0) += 1;
     start.scalars.row(i).tail(values.cols()) += (value - range.middle).cwiseQuotient(range.half);
   }
-  checkHeat(query_name, heat, sources, start);
+  checkHeat(extension_query, heat, sources, start);
   VectorHeatReport made;
-  const HeatFields found = heat.spread(query_name, start, made, progress);
+  const HeatFields found = heat.spread(extension_query, start, made, progress);
   Eigen::MatrixXd result = found.scalars.rightCols(values.cols());
   result = (result.array().rowwise() * range.half.array()).rowwise() + range.middle.array();
   heat.copyToCoincident(result);

@@ -3,15 +3,14 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "algorithms/apex.h"
 #include "algorithms/march_heap.h"
+#include "base/infinity.h"
 
 namespace tufted {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A step that meets half a side within this share of one of its ends leads to that end: a target on the side is
 /// unfolded onto it only up to rounding.
 constexpr double at_an_end = 1e-6;

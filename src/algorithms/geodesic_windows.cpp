@@ -8,6 +8,7 @@
 
 #include "algorithms/apex.h"
 #include "base/cross.h"
+#include "base/infinity.h"
 #include "cover/geometry.h"
 #include "tufted/errors.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A vertex no farther from a line than this, in the unit of the lengths, counts as on it. Rounding moves lines by
 /// less.
 constexpr double on_line = 1e-11;

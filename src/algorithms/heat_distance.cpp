@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "algorithms/heat_directions.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/memory_limit.h"
+#include "base/infinity.h"
 #include "base/parallel.h"
 #include "cover/face_scale.h"
 #include "operators/surface_faces.h"
@@ -19,12 +19,11 @@
 namespace tufted {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A mass below this part of the diagonal of L is raised to it: it would be lost in the sum, and the matrix might be
 /// singular.
 constexpr double least_mass = 1e-13;
 
-constexpr const char* constructor = "DistanceSolver";
+constexpr const char* heat_distance_constructor = "DistanceSolver";
 
 /// The matrix M / t + L of the heat equation, M being the lumped areas of the faces.
 /// @param time of each component
@@ -94,9 +93,10 @@ HeatDistance::HeatDistance(const Laplacian& laplacian, const Components& compone
   const int factors = interior.size() > 0 ? 3 : 2;
   SolverOptions one = options.solver;
   one.memory_limit = std::max<std::size_t>(memoryLimit(options.solver.memory_limit) / factors, 1);
-  state.heat =
-      makeHeatSystem(constructor, heatMatrix(laplacian, surface, components, state.time), std::move(interior), one);
-  state.poisson.emplace(LinearSystem::laplacian({.function = constructor, .matrix = "L"}, laplacian, one));
+  state.heat = makeHeatSystem(heat_distance_constructor, heatMatrix(laplacian, surface, components, state.time),
+                              std::move(interior), one);
+  state.poisson.emplace(
+      LinearSystem::laplacian({.function = heat_distance_constructor, .matrix = "L"}, laplacian, one));
   for (const LinearSystem* held : {state.heat.closed.get(), state.heat.open.get(), &*state.poisson})
     if (held != nullptr) addReport(held->report(), state.report);
 }

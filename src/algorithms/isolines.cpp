@@ -14,7 +14,7 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "isolines";
+constexpr const char* isolines_name = "isolines";
 
 /// An edge by its ends, the smaller one first.
 struct Edge {
@@ -122,12 +122,12 @@ std::vector<Polyline> isolines(const PointsRef& points, const TrianglesRef& tria
                                const Eigen::Ref<const VectorXd>& field, const std::vector<double>& values,
                                const Progress& progress) {
   if (field.size() != points.rows())
-    throw InvalidInput(std::string(function_name) + ": field has " + std::to_string(field.size()) +
+    throw InvalidInput(std::string(isolines_name) + ": field has " + std::to_string(field.size()) +
                        " values, must have " + std::to_string(points.rows()));
-  requireCornersInRange(function_name, triangles, points.rows());
+  requireCornersInRange(isolines_name, triangles, points.rows());
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
-      throw InvalidInput(std::string(function_name) + ": value " + std::to_string(i) + " is not finite, must be");
+      throw InvalidInput(std::string(isolines_name) + ": value " + std::to_string(i) + " is not finite, must be");
   std::vector<std::uint8_t> is_usable(static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
     const int a = triangles(f, 0), b = triangles(f, 1), c = triangles(f, 2);

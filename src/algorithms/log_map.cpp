@@ -28,8 +28,8 @@
 namespace tufted {
 namespace {
 
-constexpr const char* constructor = "LogMapSolver";
-constexpr const char* query_name = "LogMapSolver::query";
+constexpr const char* log_map_constructor = "LogMapSolver";
+constexpr const char* log_map_query = "LogMapSolver::query";
 
 /// The field of directions away from the source starts in a ring between these distances from it, in units of
 /// FieldHeat::spacingAt(): nearer points are few, and wider rings reach over features.
@@ -69,7 +69,7 @@ struct HeatLogMap {
 
 HeatLogMap heatLogMap(const Laplacian& laplacian, const Frames& frames, const LogMapOptions& options) {
   DistanceSolver distance(laplacian, {.solver = options.solver});
-  FieldHeat heat(constructor, laplacian, &frames, {.time_step = options.time_step, .solver = options.solver},
+  FieldHeat heat(log_map_constructor, laplacian, &frames, {.time_step = options.time_step, .solver = options.solver},
                  memoryLimit(options.solver.memory_limit));
   return {laplacian.L, laplacian.M, laplacian.positions, frames, std::move(distance), std::move(heat)};
 }
@@ -120,7 +120,7 @@ Eigen::MatrixX2d HeatLogMap::query(int source, const Eigen::Vector2d& first, Vec
                                    const Progress& progress) const {
   const VectorXd lengths = distance.query({source}, nullptr, progress);
   const std::vector<int> near = disc(source);
-  const HeatFields found = heat.spread(query_name, startingFields(source, near, first), report, progress);
+  const HeatFields found = heat.spread(log_map_query, startingFields(source, near, first), report, progress);
   Eigen::MatrixX2d coordinates(lengths.size(), 2);
   for (int i = 0; i < lengths.size(); ++i) {
     const auto field = [&](int column) { return found.vectors.col(column).segment<2>(2 * Eigen::Index{i}); };
@@ -151,12 +151,13 @@ LogMapSolver::LogMapSolver(const Laplacian& laplacian, const LogMapOptions& opti
     : LogMapSolver(laplacian, laplacian.frames, options) {}
 
 LogMapSolver::LogMapSolver(const Laplacian& laplacian, const Frames& frames, const LogMapOptions& options) {
-  checkFrames(constructor, laplacian, frames);
-  requireChoice(options.method, LogMapMethod::heat, constructor, "method");
-  checkHeatTime(constructor, options.time_step);
+  checkFrames(log_map_constructor, laplacian, frames);
+  requireChoice(options.method, LogMapMethod::heat, log_map_constructor, "method");
+  checkHeatTime(log_map_constructor, options.time_step);
   if (!laplacian.hasCover())
-    throw InvalidInput(std::string(constructor) + ": the Laplacian has no cover, must have one: keep_cover = true");
-  checkCover(constructor, laplacian);
+    throw InvalidInput(std::string(log_map_constructor) +
+                       ": the Laplacian has no cover, must have one: keep_cover = true");
+  checkCover(log_map_constructor, laplacian);
   const Stopwatch watch;
   auto state = std::make_unique<State>();
   state->frames = frames;
@@ -181,7 +182,7 @@ const SolverReport& LogMapSolver::report() const {
 LogMap LogMapSolver::query(int source, const Eigen::RowVector3d& axis, const Progress& progress) const {
   const Stopwatch watch;
   const State& state = *state_;
-  const std::string name = std::string(query_name) + ": ";
+  const std::string name = std::string(log_map_query) + ": ";
   const auto n = static_cast<int>(state.status.size());
   if (source < 0 || source >= n)
     throw InvalidInput(name + "source " + std::to_string(source) + ", must lie in [0, " + std::to_string(n) + ")");

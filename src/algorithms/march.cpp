@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -13,11 +12,11 @@
 #include "algorithms/march_sources.h"
 #include "algorithms/march_update.h"
 #include "algorithms/march_views.h"
+#include "base/infinity.h"
 
 namespace tufted {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Vertices frozen between two calls of `progress`.
 constexpr std::int64_t between_reports = 65536;
 /// A source goes on from a vertex only if it is farther than the nearest source by at most this many times the longest

@@ -21,22 +21,22 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "minimalSurface";
+constexpr const char* minimal_surface_name = "minimalSurface";
 
-[[noreturn]] void refuse(const std::string& why) {
-  throw InvalidInput(std::string(function_name) + ": " + why);
+[[noreturn]] void refuseSurface(const std::string& why) {
+  throw InvalidInput(std::string(minimal_surface_name) + ": " + why);
 }
 
 void checkOptions(const MinimalSurfaceOptions& options) {
   if (!(options.tolerance > 0 && std::isfinite(options.tolerance)))
-    refuse("tolerance = " + numberText(options.tolerance) + ", must be finite and above 0");
+    refuseSurface("tolerance = " + numberText(options.tolerance) + ", must be finite and above 0");
   if (options.max_iterations < 1)
-    refuse("max_iterations = " + std::to_string(options.max_iterations) + ", must be at least 1");
+    refuseSurface("max_iterations = " + std::to_string(options.max_iterations) + ", must be at least 1");
 }
 
 Triangles trianglesOf(const Laplacian& laplacian, const TrianglesRef& given) {
-  const std::vector<std::array<int, 3>> usable = usableTriangles(function_name, laplacian, given);
-  if (usable.empty()) refuse("no triangle has three different active points, must be at least one");
+  const std::vector<std::array<int, 3>> usable = usableTriangles(minimal_surface_name, laplacian, given);
+  if (usable.empty()) refuseSurface("no triangle has three different active points, must be at least one");
   Triangles triangles(std::ssize(usable), 3);
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k) triangles(t, k) = usable[static_cast<std::size_t>(t)][k];
@@ -73,14 +73,15 @@ std::vector<int> fixedPoints(const Laplacian& laplacian, const std::vector<std::
   const int n = static_cast<int>(named.size());
   for (const int point : given) {
     if (point < 0 || point >= n)
-      refuse("fixed has " + std::to_string(point) + ", must lie in [0, " + std::to_string(n) + ")");
+      refuseSurface("fixed has " + std::to_string(point) + ", must lie in [0, " + std::to_string(n) + ")");
     const int i = laplacian.representative[point];
-    if (named[i] == 0) refuse("point " + std::to_string(point) + " of fixed lies on no triangle, must lie on one");
+    if (named[i] == 0)
+      refuseSurface("point " + std::to_string(point) + " of fixed lies on no triangle, must lie on one");
     fixed.push_back(i);
   }
   if (given.empty()) fixed = rimPoints(triangles);
   sortUnique(fixed);
-  if (fixed.empty()) refuse("the surface has no rim, so points that stay in place must be given");
+  if (fixed.empty()) refuseSurface("the surface has no rim, so points that stay in place must be given");
   return fixed;
 }
 
@@ -100,7 +101,7 @@ Eigen::MatrixXd harmonicPositions(const Laplacian& laplacian, const std::vector<
   try {
     return harmonic(laplacian, {fixed, x(fixed, Eigen::all)}, options);
   } catch (const SolverFailure& failure) {
-    throw SolverFailure(std::string(function_name) + ": after " + std::to_string(iterations) +
+    throw SolverFailure(std::string(minimal_surface_name) + ": after " + std::to_string(iterations) +
                         " iterations a part of the surface has nearly no area left, fix more points (" +
                         failure.what() + ")");
   }
@@ -132,7 +133,7 @@ Points minimalSurface(const Laplacian& laplacian, const TrianglesRef& given, con
                       MinimalSurfaceReport* report) {
   const Stopwatch watch;
   checkOptions(options);
-  const ShapeFrame frame(function_name, laplacian);
+  const ShapeFrame frame(minimal_surface_name, laplacian);
   const Triangles triangles = trianglesOf(laplacian, given);
   const std::vector<std::uint8_t> named = namedPoints(triangles, laplacian.status.size());
   const std::vector<int> fixed = fixedPoints(laplacian, named, triangles, options.fixed);

@@ -68,7 +68,7 @@ PartConstants::PartConstants(const SparseMatrix& L, const std::vector<int>& poin
     extensions_ += inner(left);
   }
   const Eigen::MatrixXd flux = -sums(remainderOfLaplacian(L, points, none, none, extensions_).rest);
-  complement_.compute((flux + flux.transpose()) / 2);
+  complement_ = DenseCholesky((flux + flux.transpose()) / 2);
 }
 
 Eigen::MatrixXd PartConstants::sums(const Eigen::MatrixXd& values) const {

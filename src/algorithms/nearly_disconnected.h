@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "algorithms/connected.h"
+#include "base/dense_solvers.h"
 #include "operators/lower_triangle.h"
 #include "tufted/solver.h"
 
@@ -29,7 +29,7 @@ class PartConstants {
                 const std::vector<std::uint8_t>& floating, const Inner& inner);
 
   /// Whether the Schur complement is positive definite.
-  bool isDefinite() const { return complement_.info() == Eigen::Success; }
+  bool isDefinite() const { return complement_.isDefinite(); }
 
   /// Solves L x = rest, up to the accuracy of `inner`.
   /// @param rest N x c
@@ -42,7 +42,7 @@ class PartConstants {
   std::vector<int> number_;     ///< N; number of each point's floating part, or -1
   Eigen::MatrixXd extensions_;  ///< N x floating parts; column k is 1 at the first point of part k, and L times it is 0
                                 ///< at all other points
-  Eigen::LLT<Eigen::MatrixXd> complement_;
+  DenseCholesky complement_;
 };
 
 /// The two parts of a Laplacian that the weakest link joins; nullopt if no part is joined by less than `weak_share`.

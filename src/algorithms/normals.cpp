@@ -23,7 +23,7 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "orientedFrames";
+constexpr const char* normals_name = "orientedFrames";
 
 /// Between planes that meet at less than 45 degrees, the cosine of the normals gives the sign; noise in positions does
 /// not matter.
@@ -233,11 +233,11 @@ Frames orientedFrames(const Laplacian& laplacian, const OrientationOptions& opti
 
 Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const OrientationOptions& options,
                       OrientationReport* report) {
-  checkFrames(function_name, laplacian, frames);
+  checkFrames(normals_name, laplacian, frames);
   if (options.viewpoint != nullptr && !options.viewpoint->allFinite())
-    throw InvalidInput(std::string(function_name) + ": viewpoint is not finite, must be");
+    throw InvalidInput(std::string(normals_name) + ": viewpoint is not finite, must be");
   if (options.up != nullptr && !(options.up->allFinite() && !options.up->isZero(0)))
-    throw InvalidInput(std::string(function_name) + ": up is 0 or not finite, must be a direction");
+    throw InvalidInput(std::string(normals_name) + ": up is 0 or not finite, must be a direction");
   const Stopwatch watch;
   OrientationReport made;
   Frames result = frames;

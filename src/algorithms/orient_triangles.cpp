@@ -10,7 +10,7 @@
 namespace tufted {
 namespace {
 
-using Corners = std::array<int, 3>;
+using Triangle = std::array<int, 3>;
 
 /// If the volume of a component over its area and size is smaller than this, it is rounding, and the mean normal
 /// decides.
@@ -30,7 +30,7 @@ struct AdjacentTriangle {
 };
 
 /// The neighbours of each triangle across its inner edges.
-std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Corners>& triangles,
+std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Triangle>& triangles,
                                                          TriangleReport& report) {
   std::vector<Side> sides;
   sides.reserve(3 * triangles.size());
@@ -67,7 +67,8 @@ std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Corne
 }
 
 /// Whether the triangles of one component must be reversed.
-bool isInsideOut(const Laplacian& laplacian, const std::vector<Corners>& triangles, const std::vector<int>& component) {
+bool isInsideOut(const Laplacian& laplacian, const std::vector<Triangle>& triangles,
+                 const std::vector<int>& component) {
   const Points& positions = laplacian.positions;
   const Eigen::RowVector3d origin = positions.row(triangles[component.front()][0]);
   double size = 0;
@@ -101,9 +102,9 @@ bool isInsideOut(const Laplacian& laplacian, const std::vector<Corners>& triangl
 
 }  // namespace
 
-void orientTriangles(const Laplacian& laplacian, std::vector<Corners>& triangles, TriangleReport& report) {
+void orientTriangles(const Laplacian& laplacian, std::vector<Triangle>& triangles, TriangleReport& report) {
   const std::vector<std::array<AdjacentTriangle, 3>> neighbors = neighborsOf(triangles, report);
-  const auto turn = [](Corners& corners) { std::swap(corners[1], corners[2]); };
+  const auto turn = [](Triangle& corners) { std::swap(corners[1], corners[2]); };
   std::vector<std::uint8_t> seen(triangles.size(), 0), turned(triangles.size(), 0);
   std::vector<int> component;
   for (std::size_t first = 0; first < triangles.size(); ++first) {

@@ -26,20 +26,20 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "parameterize";
+constexpr const char* parameterization_name = "parameterize";
 /// A chart is not laid out if more than this share of its area collapses, as on long tubes; needles and ends of spikes
 /// are less.
 constexpr double most_collapsed = 1e-3;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw InvalidInput(std::string(function_name) + ": " + why);
+  throw InvalidInput(std::string(parameterization_name) + ": " + why);
 }
 
 void checkArguments(const Laplacian& laplacian, const ParameterizationOptions& options) {
-  checkPositions(function_name, laplacian);
-  requireChoice(options.method, ParameterizationMethod::harmonic, function_name, "method");
-  requireChoice(options.weights, HarmonicWeights::mean_value, function_name, "weights");
+  checkPositions(parameterization_name, laplacian);
+  requireChoice(options.method, ParameterizationMethod::harmonic, parameterization_name, "method");
+  requireChoice(options.weights, HarmonicWeights::mean_value, parameterization_name, "weights");
   const bool is_harmonic = options.method == ParameterizationMethod::harmonic;
   if (!is_harmonic && (!options.rim.empty() || options.weights != HarmonicWeights::laplacian))
     refuse("rim or weights are given, must be with ParameterizationMethod::harmonic alone");
@@ -96,7 +96,7 @@ Eigen::MatrixX2d conformal(const Laplacian& laplacian, std::vector<const Chart*>
     for (std::size_t k = 0; k < points.size(); ++k) local[points[k]] = static_cast<int>(k);
     const int exponent = exponentOf(laplacian.positions, chart->triangles);
     Eigen::MatrixX2d map =
-        conformalMap(function_name, laplacian.positions, *chart, points, local, options.solver, report);
+        conformalMap(parameterization_name, laplacian.positions, *chart, points, local, options.solver, report);
     const Collapse collapse = placeAlone(laplacian.positions, *chart, exponent, local, map);
     if (collapse.area_share > most_collapsed) {
       if (chart == charts.front())
@@ -217,7 +217,7 @@ Eigen::MatrixX2d harmonicMap(const Laplacian& laplacian, const std::vector<Chart
     for (const int i : corners) is_named[i] = 1;
   for (const int i : rim)
     if (is_named[i] == 0) refuse("point " + std::to_string(i) + " of rim lies on no triangle, must lie on one");
-  mapByMeanValues(function_name, laplacian.positions, charts.front(), is_pinned, options.solver, uv, report);
+  mapByMeanValues(parameterization_name, laplacian.positions, charts.front(), is_pinned, options.solver, uv, report);
   return uv;
 }
 
@@ -229,7 +229,7 @@ Eigen::MatrixX2d parameterize(const Laplacian& laplacian, const TrianglesRef& tr
   checkArguments(laplacian, options);
   Workers(options.solver.threads, options.solver.progress).report("charts", 0);
   ParameterizationReport made;
-  const std::vector<Chart> charts = findCharts(function_name, laplacian, triangles, &made.cut);
+  const std::vector<Chart> charts = findCharts(parameterization_name, laplacian, triangles, &made.cut);
   std::vector<const Chart*> mapped = mappableCharts(charts, made);
   std::vector<int> owner(laplacian.status.size(), -1);
   Eigen::MatrixX2d uv;

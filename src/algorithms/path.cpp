@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <list>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "algorithms/march_faces.h"
 #include "algorithms/strip.h"
 #include "algorithms/turn.h"
+#include "base/infinity.h"
 #include "operators/check_cover.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -21,9 +21,8 @@
 namespace tufted {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr const char* constructor = "PathSolver";
-constexpr const char* query_name = "PathSolver::query";
+constexpr const char* path_constructor = "PathSolver";
+constexpr const char* path_query = "PathSolver::query";
 constexpr const char* through_name = "PathSolver::through";
 /// A path is led around a point only if that makes it shorter by this part, which is above rounding; it might alternate
 /// forever otherwise.
@@ -88,11 +87,11 @@ struct PathSolver::State {
 };
 
 PathSolver::PathSolver(const Laplacian& laplacian, const PathOptions& options) {
-  checkSizes(constructor, laplacian);
-  checkCover(constructor, laplacian);
+  checkSizes(path_constructor, laplacian);
+  checkCover(path_constructor, laplacian);
   const auto n = std::ssize(laplacian.status);
   if (laplacian.positions.rows() != n)
-    throw InvalidInput(std::string(constructor) + ": positions has " + std::to_string(laplacian.positions.rows()) +
+    throw InvalidInput(std::string(path_constructor) + ": positions has " + std::to_string(laplacian.positions.rows()) +
                        " rows, must have " + std::to_string(n));
   const Workers workers(options.threads, options.progress);
   auto state = std::make_unique<State>();
@@ -164,13 +163,13 @@ SurfacePath PathSolver::State::straightened(int from, const std::vector<Strip>& 
 
 SurfacePath PathSolver::query(int from, int to, const Progress& progress) const {
   const State& state = *state_;
-  from = state.checked(query_name, "from", from);
-  to = state.checked(query_name, "to", to);
+  from = state.checked(path_query, "from", from);
+  to = state.checked(path_query, "to", to);
   const Workers workers(state.threads, progress);
   if (from == to) return {state.positions.row(from), 0, 0};
-  SurfacePath there = state.straightened(from, state.firstPath(query_name, from, to, workers), workers);
+  SurfacePath there = state.straightened(from, state.firstPath(path_query, from, to, workers), workers);
   // Step 4: from the other end, the first path may pass handles and hills on another side.
-  SurfacePath back = state.straightened(to, state.firstPath(query_name, to, from, workers), workers);
+  SurfacePath back = state.straightened(to, state.firstPath(path_query, to, from, workers), workers);
   // Near a rim both may lead over it onto the back, where they are locally shortest, too. A path along edges does not.
   SurfacePath along = state.straightened(from, stripsAlongEdges(state.faces, from, to), workers);
   const int shortenings = there.shortenings + back.shortenings + along.shortenings;

@@ -27,12 +27,12 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "segments";
+constexpr const char* segments_name = "segments";
 /// Number of segments by default, if there are as many points.
 constexpr int usual_count = 8;
 
 void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
-  const std::string name = std::string(function_name) + ": ";
+  const std::string name = std::string(segments_name) + ": ";
   if (components.points.empty()) throw InvalidInput(name + "no point is active, must be at least one");
   requireChoice(options.method, SegmentMethod::parts, function_name, "method");
   if (options.method != SegmentMethod::voronoi) {
@@ -73,7 +73,7 @@ class Cells {
         components_(components),
         workers_(1, options.progress),
         number_(numbersByFaces(laplacian)),
-        split_(checkedSplit(function_name, std::nullopt, laplacian)),
+        split_(checkedSplit(segments_name, std::nullopt, laplacian)),
         faces_(marchFaces(laplacian, split_, workers_, number_)),
         area_(components.sums(laplacian.M)),
         has_seed_(static_cast<std::size_t>(components.count), false),
@@ -170,13 +170,13 @@ Segments voronoi(const Laplacian& laplacian, const SegmentOptions& options, cons
     result.labels = solver.nearest(sources, nullptr, options.solver.progress).source;
     return result;
   }
-  checkCover(function_name, laplacian);
+  checkCover(segments_name, laplacian);
   Cells cells(laplacian, components, options.solver);
   while (std::ssize(cells.seeds()) < options.count.value_or(usual_count)) {
     const int seed = cells.farthest();
     if (seed < 0 && !options.count) break;
     if (seed < 0)
-      throw InvalidInput(std::string(function_name) + ": count = " + std::to_string(*options.count) +
+      throw InvalidInput(std::string(segments_name) + ": count = " + std::to_string(*options.count) +
                          ", must be at most " + std::to_string(cells.seeds().size()) +
                          ", the number of different places");
     cells.addSeed(seed);
@@ -234,7 +234,7 @@ Segments segments(const Laplacian& laplacian, const SegmentOptions& options) {
 }
 
 Segments segments(const Laplacian& laplacian, const Frames& frames, const SegmentOptions& options) {
-  checkSizes(function_name, laplacian);
+  checkSizes(segments_name, laplacian);
   const Stopwatch watch;
   const Components components = findComponents(laplacian);
   checkArguments(laplacian, options, components);
@@ -250,7 +250,7 @@ Segments segments(const Laplacian& laplacian, const Frames& frames, const Segmen
       result = spectral(laplacian, count, options.solver, components);
       break;
     case SegmentMethod::parts:
-      checkFrames(function_name, laplacian, frames);
+      checkFrames(segments_name, laplacian, frames);
       result.labels = creaseParts(laplacian, frames, options);
       count = 1 + *std::max_element(result.labels.begin(), result.labels.end());
       break;

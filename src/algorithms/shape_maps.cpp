@@ -1,7 +1,6 @@
 // Functional maps (Ovsjanikov et al. 2012) and ZoomOut (Melzi et al. 2019).
 #include "tufted/shape_maps.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "algorithms/check_positions.h"
+#include "base/dense_solvers.h"
 #include "base/number_text.h"
 #include "neighbors/morton.h"
 #include "neighbors/nearest_rows.h"
@@ -152,7 +152,7 @@ MatrixXd pulled(const Bases& bases, const std::vector<int>& points, const std::v
     to.push_back(mapped[i]);
   }
   const MatrixXd images = bases.source.vectors(to, Eigen::seqN(0, k));
-  return bases.target.vectors(from, Eigen::seqN(0, k)).eval().completeOrthogonalDecomposition().solve(images);
+  return leastSquares(bases.target.vectors(from, Eigen::seqN(0, k)), images);
 }
 
 /// The first coefficients, k x D, of functions of norm 1 on both shapes that correspond, and the square roots of their
@@ -285,9 +285,7 @@ MatrixXd functionalMap(const MappedShape& source, const MappedShape& target, con
     MatrixXd system = gram;
     system.diagonal().array() += options.commutativity * ((D.array() - E[row]) / largest).square();
     // The solution of least norm: several descriptors may be too few for a regular matrix.
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
-    solver.setThreshold(static_cast<double>(k) * std::numeric_limits<double>::epsilon());
-    C.row(row) = solver.compute(system).solve(right.col(row)).transpose();
+    C.row(row) = leastSquares(system, right.col(row)).transpose();
   }
   return C;
 }

@@ -2,7 +2,6 @@
 #include "tufted/signed_distance.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -20,6 +19,7 @@
 #include "algorithms/memory_limit.h"
 #include "algorithms/place_in_cover.h"
 #include "algorithms/vector_heat.h"
+#include "base/dense_solvers.h"
 #include "base/require.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
@@ -27,9 +27,9 @@
 namespace tufted {
 namespace {
 
-constexpr const char* constructor = "SignedDistanceSolver";
-constexpr const char* query_name = "SignedDistanceSolver::query";
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* signed_distance_constructor = "SignedDistanceSolver";
+constexpr const char* signed_distance_query = "SignedDistanceSolver::query";
+constexpr double unknown_value = std::numeric_limits<double>::quiet_NaN();
 
 /// The part of the memory for the two factors of heat (scalars, vectors); the factor of L gets the rest.
 constexpr double heat_share = 0.75;
@@ -104,9 +104,10 @@ SignedDistanceSolver::State::State(const Laplacian& laplacian, const Frames& giv
   }
   VectorHeatOptions vectors = {.time_step = options.time_step, .solver = options.solver};
   const std::size_t bytes = memoryLimit(options.solver.memory_limit);
-  heat.emplace(constructor, laplacian, &frames, vectors, shareOf(bytes, heat_share));
+  heat.emplace(signed_distance_constructor, laplacian, &frames, vectors, shareOf(bytes, heat_share));
   vectors.solver.memory_limit = shareOf(bytes, 1 - heat_share);
-  system.emplace(LinearSystem::laplacian({.function = constructor, .matrix = "L"}, laplacian, vectors.solver));
+  system.emplace(
+      LinearSystem::laplacian({.function = signed_distance_constructor, .matrix = "L"}, laplacian, vectors.solver));
   report = heat->report();
   addReport(system->report(), report);
 }
@@ -114,7 +115,7 @@ SignedDistanceSolver::State::State(const Laplacian& laplacian, const Frames& giv
 std::vector<CurvePlace> SignedDistanceSolver::State::placesOf(const std::vector<SurfacePoint>& points) const {
   std::vector<CurvePlace> places;
   for (SurfacePoint point : points) {
-    checkPlace(query_name, point, static_cast<int>(representative.size()));
+    checkPlace(signed_distance_query, point, static_cast<int>(representative.size()));
     for (int& corner : point.corners) corner = representative[corner];
     const Eigen::RowVector3d first = positions.row(point.corners[0]);
     Eigen::RowVector3d position = first;
@@ -155,7 +156,7 @@ Curves SignedDistanceSolver::State::resolved(const std::vector<SurfaceCurve>& cu
     found.places.insert(found.places.end(), places.begin(), places.end());
   }
   if (!curves.empty() && !has_direction)
-    throw InvalidInput(std::string(query_name) + ": curve has " + std::to_string(found.places.size()) +
+    throw InvalidInput(std::string(signed_distance_query) + ": curve has " + std::to_string(found.places.size()) +
                        " places that take part, must have at least two on one component, and directions along it");
   return found;
 }
@@ -193,8 +194,8 @@ VectorXd SignedDistanceSolver::State::byHeat(const std::vector<CurveSegment>& se
       }
     }
   }
-  const HeatFields found = heat->spread(query_name, flow, made.heat, progress);
-  std::vector<Eigen::RowVector3d> slope(static_cast<std::size_t>(n), Eigen::RowVector3d::Constant(nan));
+  const HeatFields found = heat->spread(signed_distance_query, flow, made.heat, progress);
+  std::vector<Eigen::RowVector3d> slope(static_cast<std::size_t>(n), Eigen::RowVector3d::Constant(unknown_value));
   for (const int i : components.points) {
     const Eigen::Vector2d direction = found.vectors.col(0).segment<2>(2 * Eigen::Index{i});
     const Eigen::RowVector3d normal = frames.normals.row(i), x = frames.tangents.row(i);
@@ -207,7 +208,7 @@ VectorXd SignedDistanceSolver::State::withMeanZero(VectorXd b, const SparseMatri
                                                    SignedDistanceReport& made) const {
   const auto solve = [&](const Eigen::MatrixXd& right) -> Eigen::MatrixXd {
     SolveReport solved;
-    Eigen::MatrixXd found = system->solve(query_name, right, &solved, progress, Refine::where_needed);
+    Eigen::MatrixXd found = system->solve(signed_distance_query, right, &solved, progress, Refine::where_needed);
     made.residual = greater(made.residual, solved.residual);
     return found;
   };
@@ -240,13 +241,13 @@ VectorXd SignedDistanceSolver::State::withMeanZero(VectorXd b, const SparseMatri
       const Eigen::Index columns = std::min(shifts_at_once, count - c);
       answers.middleCols(c, columns) = difference.transpose() * solve(difference.middleCols(c, columns));
     }
-    b -= difference * answers.completeOrthogonalDecomposition().solve(difference.transpose() * distance);
+    b -= difference * leastSquares(answers, difference.transpose() * distance);
     distance = solve(b);
   }
   const VectorXd means = mean.transpose() * distance;
   for (const int i : components.points) {
     const Eigen::Index c = first[components.of[i]];
-    distance[i] = c >= 0 ? distance[i] - means[c] : nan;
+    distance[i] = c >= 0 ? distance[i] - means[c] : unknown_value;
   }
   return distance;
 }
@@ -292,7 +293,7 @@ VectorXd SignedDistanceSolver::queryAt(const std::vector<SurfaceCurve>& curves, 
                                        SignedDistanceReport* report, const Progress& progress) const {
   const Stopwatch watch;
   const State& state = *state_;
-  const std::string name = std::string(query_name) + ": ";
+  const std::string name = std::string(signed_distance_query) + ": ";
   if (state.heat && !points.empty())
     throw InvalidInput(name + "points has " + std::to_string(points.size()) +
                        " places, must be empty unless method is marching");
@@ -313,7 +314,7 @@ VectorXd SignedDistanceSolver::queryAt(const std::vector<SurfaceCurve>& curves, 
                                  : state.byMarching(known, places, progress, made);
   for (Eigen::Index i = 0; i < distance.size(); ++i) {
     const double found = distance[state.representative[i]];
-    distance[i] = state.components.of[state.representative[i]] >= 0 && std::isfinite(found) ? found : nan;
+    distance[i] = state.components.of[state.representative[i]] >= 0 && std::isfinite(found) ? found : unknown_value;
   }
   made.seconds = watch.seconds();
   if (report != nullptr) *report = made;
@@ -326,8 +327,8 @@ SignedDistanceSolver::SignedDistanceSolver(const Laplacian& laplacian, const Sig
 SignedDistanceSolver::SignedDistanceSolver(const Laplacian& laplacian, const Frames& frames,
                                            const SignedDistanceOptions& options) {
   const Stopwatch watch;
-  checkFrames(constructor, laplacian, frames);
-  requireChoice(options.method, DistanceMethod::heat, constructor, "method");
+  checkFrames(signed_distance_constructor, laplacian, frames);
+  requireChoice(options.method, DistanceMethod::heat, signed_distance_constructor, "method");
   auto state = std::make_unique<State>(laplacian, frames, options);
   state->report.seconds = watch.seconds();
   state_ = std::move(state);

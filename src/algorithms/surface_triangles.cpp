@@ -21,13 +21,13 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "surfaceTriangles";
+constexpr const char* surface_triangles_name = "surfaceTriangles";
 /// A triangle of at least two stars has at least this many faces in the cover: front and back for each star.
 constexpr int least_faces = 4;
 /// Maximum number of triangles in no star that close holes at a point; more holes there stay open.
 constexpr int most_closing = 4;
 /// Triangles between two calls of `progress`.
-constexpr std::int64_t between_reports = 65536;
+constexpr std::int64_t candidates_between_reports = 65536;
 
 using Corners = std::array<int, 3>;
 
@@ -49,7 +49,7 @@ void takeCandidates(std::vector<TriangleCandidate> candidates, const Workers& wo
                                          [](const TriangleCandidate& c) { return c.faces >= least_faces; });
   for (auto candidate = candidates.begin(); candidate != sure; ++candidate) {
     const std::int64_t done = candidate - candidates.begin();
-    if (done % between_reports == 0)
+    if (done % candidates_between_reports == 0)
       workers.report("triangles", static_cast<double>(done) / static_cast<double>(candidates.size()));
     fans.add(candidate->corners);
   }
@@ -158,12 +158,13 @@ Triangles sorted(std::vector<Corners> triangles) {
 }  // namespace
 
 Triangles surfaceTriangles(const Laplacian& laplacian, const TriangleOptions& options, TriangleReport* report) {
-  checkFrames(function_name, laplacian, laplacian.frames);
+  checkFrames(surface_triangles_name, laplacian, laplacian.frames);
   if (laplacian.kind == Kind::mesh)
-    throw InvalidInput(std::string(function_name) + ": the Laplacian is of a mesh, must be of a cloud: a mesh has " +
-                       "triangles of its own");
+    throw InvalidInput(std::string(surface_triangles_name) +
+                       ": the Laplacian is of a mesh, must be of a cloud: a mesh has " + "triangles of its own");
   if (!laplacian.hasCover())
-    throw InvalidInput(std::string(function_name) + ": the Laplacian has no cover, must have one: keep_cover = true");
+    throw InvalidInput(std::string(surface_triangles_name) +
+                       ": the Laplacian has no cover, must have one: keep_cover = true");
   const Stopwatch watch;
   const Workers workers(1, options.progress);
   TriangleReport made;

@@ -1,10 +1,10 @@
 #include "algorithms/tall_matrix.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <vector>
 
 #include "algorithms/serial_blas.h"
+#include "base/dense_solvers.h"
 
 namespace tufted {
 namespace {
@@ -93,9 +93,9 @@ void multiplyInPlace(Eigen::Ref<MatrixXd> X, const MatrixXd& C, const Workers& w
 }
 
 bool orthonormalize(const Eigen::VectorXd& mass, const Workers& workers, Eigen::Ref<MatrixXd> X) {
-  const Eigen::LLT<MatrixXd> gram(innerProducts(X, mass, X, workers));
-  if (gram.info() != Eigen::Success) return false;
-  multiplyInPlace(X, gram.matrixU().solve(MatrixXd::Identity(X.cols(), X.cols())), workers);
+  const DenseCholesky gram(innerProducts(X, mass, X, workers));
+  if (!gram.isDefinite()) return false;
+  multiplyInPlace(X, gram.inverseOfUpper(), workers);
   return true;
 }
 

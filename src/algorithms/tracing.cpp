@@ -22,14 +22,14 @@ namespace {
 using Eigen::RowVector3d;
 using Eigen::Vector2d;
 
-constexpr const char* constructor = "GeodesicTracer";
-constexpr const char* query_name = "GeodesicTracer::query";
+constexpr const char* tracing_constructor = "GeodesicTracer";
+constexpr const char* tracing_query = "GeodesicTracer::query";
 constexpr const char* direction_name = "GeodesicTracer::query: direction";
 /// A line ends after this many crossings, whose points fill 24 MB: a thousand times around a mesh of a million
 /// triangles.
 constexpr int most_crossings = 1'000'000;
 /// Crossings between two calls of `progress`.
-constexpr int between_reports = 65536;
+constexpr int crossings_between_reports = 65536;
 /// Cosines that differ by less are equal but for rounding: both triangles at an edge meet a direction along it.
 constexpr double same_cosine = 1e-14;
 
@@ -98,12 +98,12 @@ struct GeodesicTracer::State {
 GeodesicTracer::GeodesicTracer(const PointsRef& points, const TrianglesRef& triangles, const Frames& frames) {
   const auto require = [&](const char* name, const Points& array) {
     if (array.rows() != points.rows())
-      throw InvalidInput(std::string(constructor) + ": frames." + name + " has " + std::to_string(array.rows()) +
-                         " rows, must have " + std::to_string(points.rows()));
+      throw InvalidInput(std::string(tracing_constructor) + ": frames." + name + " has " +
+                         std::to_string(array.rows()) + " rows, must have " + std::to_string(points.rows()));
   };
   require("normals", frames.normals);
   require("tangents", frames.tangents);
-  requireCornersInRange(constructor, triangles, points.rows());
+  requireCornersInRange(tracing_constructor, triangles, points.rows());
   state_.reset(new State{facesOf(points, triangles), points, frames});
 }
 
@@ -132,12 +132,12 @@ Beginning GeodesicTracer::State::located(const SurfacePoint& start) const {
   for (int k = 0; k < 3; ++k) {
     parts[k] = {start.corners[k], start.weights[k]};
     if (start.corners[k] < 0 || start.corners[k] >= points.rows())
-      throw InvalidInput(std::string(query_name) + ": start = " + std::to_string(start.corners[k]) +
+      throw InvalidInput(std::string(tracing_query) + ": start = " + std::to_string(start.corners[k]) +
                          ", must lie in [0, " + std::to_string(points.rows()) + ")");
     if (start.weights[k] != 1) continue;
     const int vertex = start.corners[k];
     if (faces.corner_offset[vertex] == faces.corner_offset[vertex + 1])
-      throw InvalidInput(std::string(query_name) + ": start = " + std::to_string(vertex) +
+      throw InvalidInput(std::string(tracing_query) + ": start = " + std::to_string(vertex) +
                          " is in no triangle, must be in one");
     return {.vertex = vertex};
   }
@@ -146,7 +146,7 @@ Beginning GeodesicTracer::State::located(const SurfacePoint& start) const {
   const auto found = std::lower_bound(faces.faces.begin(), faces.faces.end(), corners,
                                       [](const MarchFace& face, const auto& sought) { return face.corners < sought; });
   if (found == faces.faces.end() || found->corners != corners)
-    throw InvalidInput(std::string(query_name) + ": start lies in the triangle " + std::to_string(corners[0]) + " " +
+    throw InvalidInput(std::string(tracing_query) + ": start lies in the triangle " + std::to_string(corners[0]) + " " +
                        std::to_string(corners[1]) + " " + std::to_string(corners[2]) +
                        ", must lie in a triangle of the surface");
   return {.face = static_cast<int>(found - faces.faces.begin()),
@@ -156,7 +156,8 @@ Beginning GeodesicTracer::State::located(const SurfacePoint& start) const {
 FaceAhead GeodesicTracer::State::startInFace(const Beginning& start, const RowVector3d& direction) const {
   const auto& [a, b, c] = faces.faces[start.face].corners;
   const RowVector3d first = offset(a, b), second = offset(a, c), normal = first.cross(second).stableNormalized();
-  if (normal.isZero(0)) throw InvalidInput(std::string(query_name) + ": the triangle of start has no area, must have");
+  if (normal.isZero(0))
+    throw InvalidInput(std::string(tracing_query) + ": the triangle of start has no area, must have");
   const Frames frame{normal, first.stableNormalized(), Orientation::arbitrary};
   const Vector2d heading = inTangentPlane(direction_name, frame, 0, direction).stableNormalized();
   const RowVector3d origin = start.weights[1] * first + start.weights[2] * second;
@@ -234,7 +235,8 @@ TracedLine GeodesicTracer::query(const SurfacePoint& start, const RowVector3d& d
   if (!direction.allFinite() || direction.isZero(0))
     throw InvalidInput(std::string(direction_name) + " is not finite or 0, must be a direction");
   if (!(length >= 0) || !std::isfinite(length))
-    throw InvalidInput(std::string(query_name) + ": length = " + std::to_string(length) + ", must be >= 0 and finite");
+    throw InvalidInput(std::string(tracing_query) + ": length = " + std::to_string(length) +
+                       ", must be >= 0 and finite");
   const Workers workers(1, progress);
   TracedLine result;
   std::optional<FaceAhead> ahead = state.begin(start, direction, result);
@@ -243,7 +245,7 @@ TracedLine GeodesicTracer::query(const SurfacePoint& start, const RowVector3d& d
   const double whole = std::ldexp(length, -state.faces.exponent);
   double travelled = 0;
   for (int crossings = 0; ahead; ++crossings) {
-    if (crossings % between_reports == 0) workers.report("trace", 0);
+    if (crossings % crossings_between_reports == 0) workers.report("trace", 0);
     const Leaving leaving = leavingOf(*ahead);
     const double left = whole - travelled, share = left < leaving.distance ? left / leaving.distance : 1;
     std::array<double, 3> weights;

@@ -13,8 +13,8 @@
 namespace tufted {
 namespace {
 
-constexpr const char* constructor = "TransportSolver";
-constexpr const char* query_name = "TransportSolver::query";
+constexpr const char* transport_constructor = "TransportSolver";
+constexpr const char* transport_query = "TransportSolver::query";
 
 }  // namespace
 
@@ -27,9 +27,9 @@ TransportSolver::TransportSolver(const Laplacian& laplacian, const VectorHeatOpt
     : TransportSolver(laplacian, laplacian.frames, options) {}
 
 TransportSolver::TransportSolver(const Laplacian& laplacian, const Frames& frames, const VectorHeatOptions& options) {
-  checkFrames(constructor, laplacian, frames);
-  state_.reset(
-      new State{frames, FieldHeat(constructor, laplacian, &frames, options, memoryLimit(options.solver.memory_limit))});
+  checkFrames(transport_constructor, laplacian, frames);
+  state_.reset(new State{
+      frames, FieldHeat(transport_constructor, laplacian, &frames, options, memoryLimit(options.solver.memory_limit))});
 }
 
 double TransportSolver::timeStep() const {
@@ -44,7 +44,7 @@ Points TransportSolver::query(const std::vector<int>& sources, const Points& vec
                               const Progress& progress) const {
   const Stopwatch watch;
   const FieldHeat& heat = state_->heat;
-  checkSources(query_name, sources, "vectors", vectors);
+  checkSources(transport_query, sources, "vectors", vectors);
   const int n = heat.size();
   double longest = 0;  // unit of the lengths that are transported
   for (Eigen::Index s = 0; s < vectors.rows(); ++s) longest = std::max(longest, vectors.row(s).stableNorm());
@@ -52,17 +52,17 @@ Points TransportSolver::query(const std::vector<int>& sources, const Points& vec
   HeatFields start{Eigen::MatrixXd::Zero(n, 2), Eigen::MatrixXd::Zero(2 * Eigen::Index{n}, 1)};
   Eigen::VectorXd count = Eigen::VectorXd::Zero(n);
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    const int i = heat.place(query_name, sources[s]);
+    const int i = heat.place(transport_query, sources[s]);
     if (i < 0) continue;
-    const std::string name = std::string(query_name) + ": the vector of source " + std::to_string(sources[s]);
+    const std::string name = std::string(transport_query) + ": the vector of source " + std::to_string(sources[s]);
     const Eigen::RowVector3d vector = vectors.row(static_cast<Eigen::Index>(s)) / unit;
     start.vectors.col(0).segment<2>(2 * i) += inTangentPlane(name, state_->frames, i, vector);
     start.scalars(i, 0) += 1;
   }
-  checkHeat(query_name, heat, sources, start);
+  checkHeat(transport_query, heat, sources, start);
   for (int i = 0; i < n; ++i) start.scalars(i, 1) = start.vectors.col(0).segment<2>(2 * i).norm();
   VectorHeatReport made;
-  const HeatFields found = heat.spread(query_name, start, made, progress);
+  const HeatFields found = heat.spread(transport_query, start, made, progress);
   Points result = Points::Zero(n, 3);
   for (int i = 0; i < n; ++i) {
     const Eigen::Vector2d direction = found.vectors.col(0).segment<2>(2 * i);

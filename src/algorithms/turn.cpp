@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <queue>
 #include <span>
 #include <utility>
 
 #include "algorithms/straight_way.h"
+#include "base/infinity.h"
 
 namespace tufted {
 namespace {
@@ -20,7 +20,6 @@ constexpr double straight = 1e-9;
 /// Maximum number of faces to try per triangle of a piece that is laid through others; usually two meet at an edge,
 /// three next to flips.
 constexpr int most_faces_by_doors = 8;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// An end of an edge at a point. An edge from the point to itself has two.
 struct EdgeEnd {

@@ -17,10 +17,10 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "boundedBiharmonicWeights";
+constexpr const char* weights_name = "boundedBiharmonicWeights";
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw InvalidInput(std::string(function_name) + ": " + why);
+  throw InvalidInput(std::string(weights_name) + ": " + why);
 }
 
 /// The handle of each active point, N; -1: none.
@@ -70,7 +70,7 @@ std::int64_t localMaxima(const Laplacian& laplacian, const std::vector<std::uint
 Eigen::MatrixXd boundedBiharmonicWeights(const Laplacian& laplacian, const std::vector<std::vector<int>>& handles,
                                          const WeightOptions& options, WeightReport* report) {
   const Stopwatch watch;
-  checkSizes(function_name, laplacian);
+  checkSizes(weights_name, laplacian);
   if (options.max_iterations < 1)
     refuse("max_iterations = " + std::to_string(options.max_iterations) + ", must be at least 1");
   const Components components = findComponents(laplacian);
@@ -117,7 +117,7 @@ Eigen::MatrixXd boundedBiharmonicWeights(const Laplacian& laplacian, const std::
     const double sum = weights.row(i).sum();
     made.greatest_sum_error = std::max(made.greatest_sum_error, std::abs(sum - 1));
     if (!(sum > 0))
-      throw SolverFailure(std::string(function_name) + ": all weights of point " + std::to_string(i) +
+      throw SolverFailure(std::string(weights_name) + ": all weights of point " + std::to_string(i) +
                           " are 0, add a handle near it");
     weights.row(i) /= sum;
   }

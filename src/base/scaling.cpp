@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/buffer.h"
+#include "base/infinity.h"
 
 namespace tufted {
 namespace {
@@ -23,7 +24,6 @@ constexpr std::int64_t samples = 2048;
 /// The median of all is searched between the samples this many places before and after their median, four standard
 /// deviations of its place; if it is not there, all values are searched.
 constexpr std::ptrdiff_t beside = 100;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 struct Extent {

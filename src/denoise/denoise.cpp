@@ -18,17 +18,17 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "denoise";
+constexpr const char* denoise_name = "denoise";
 
 void check(const PointsRef& points, const DenoiseOptions& options) {
   if (options.threads < 0)
-    throw InvalidInput(std::string(function_name) + ": threads is " + std::to_string(options.threads) +
+    throw InvalidInput(std::string(denoise_name) + ": threads is " + std::to_string(options.threads) +
                        ", must be at least 0");
   if (points.rows() > INT32_MAX)
-    throw InvalidInput(std::string(function_name) + ": " + std::to_string(points.rows()) +
+    throw InvalidInput(std::string(denoise_name) + ": " + std::to_string(points.rows()) +
                        " points, must be less than 2^31");
   if (options.structure != nullptr && options.structure->has_rings)
-    throw InvalidInput(std::string(function_name) + ": structure has rings, must be that of a depth image");
+    throw InvalidInput(std::string(denoise_name) + ": structure has rings, must be that of a depth image");
 }
 
 /// Moves the points of `denoised`, which are the caller's, and reports it.
@@ -87,7 +87,7 @@ DenoisedPoints denoise(const PointsRef& points, const DenoiseOptions& options) {
   const RankedCloud cloud = rankPoints(points, status, representative, workers);
 
   if (options.structure != nullptr) {
-    moveAlongRays(rankScan(*options.structure, cloud, status, representative, function_name), cloud, workers, denoised);
+    moveAlongRays(rankScan(*options.structure, cloud, status, representative, denoise_name), cloud, workers, denoised);
   } else {
     moveOntoSurface(cloud, workers, denoised);
   }

@@ -16,7 +16,7 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "meshFrames";
+constexpr const char* mesh_frames_name = "meshFrames";
 
 /// Whether triangles are consistently oriented: no two have an edge in the same direction.
 /// @param directed edges of all triangles, each from its first to its second corner; overwritten
@@ -28,7 +28,7 @@ bool agree(std::vector<std::uint64_t>& directed) {
 }  // namespace
 
 Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
-  requireCornersInRange(function_name, triangles, points.rows());
+  requireCornersInRange(mesh_frames_name, triangles, points.rows());
   std::vector<Eigen::Matrix3d> moments(points.rows(), Eigen::Matrix3d::Zero());
   Points sums = Points::Zero(points.rows(), 3);
   std::vector<std::uint64_t> directed;
@@ -65,11 +65,11 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
 }
 
 Frames meshFrames(const Laplacian& laplacian, const PointsRef& points, const TrianglesRef& triangles) {
-  checkSizes(function_name, laplacian);
+  checkSizes(mesh_frames_name, laplacian);
   if (points.rows() != std::ssize(laplacian.status))
-    throw InvalidInput(std::string(function_name) + ": points has " + std::to_string(points.rows()) +
+    throw InvalidInput(std::string(mesh_frames_name) + ": points has " + std::to_string(points.rows()) +
                        " rows, must have " + std::to_string(laplacian.status.size()) + ", as the Laplacian");
-  requireCornersInRange(function_name, triangles, points.rows());
+  requireCornersInRange(mesh_frames_name, triangles, points.rows());
   Triangles joined = triangles;
   for (int& corner : joined.reshaped()) corner = laplacian.representative[corner];
   Frames frames = meshFrames(points, joined);

@@ -19,7 +19,7 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "meshLaplacian";
+constexpr const char* mesh_laplacian_name = "meshLaplacian";
 
 /// Indices of the usable triangles; counts the others.
 Buffer<int> usableTriangles(const TrianglesRef& triangles, const std::vector<PointStatus>& status,
@@ -29,7 +29,7 @@ Buffer<int> usableTriangles(const TrianglesRef& triangles, const std::vector<Poi
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (const int v : triangles.row(t)) {
       if (v < 0 || v >= std::ssize(status)) {
-        throw InvalidInput(std::string(function_name) + ": triangle " + std::to_string(t) + " names vertex " +
+        throw InvalidInput(std::string(mesh_laplacian_name) + ": triangle " + std::to_string(t) + " names vertex " +
                            std::to_string(v) + ", must lie in [0, " + std::to_string(status.size()) + ")");
       }
     }
@@ -57,9 +57,9 @@ Laplacian meshLaplacian(const PointsRef& points, const TrianglesRef& triangles, 
 
 void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, const MeshOptions& options,
                         Laplacian& result) {
-  checkBuild(function_name, options.mollify, options.threads);
-  requireAtMost(INT32_MAX, points.rows(), function_name, "points");
-  requireAtMost(most_triangles, triangles.rows(), function_name, "triangles");
+  checkBuild(mesh_laplacian_name, options.mollify, options.threads);
+  requireAtMost(INT32_MAX, points.rows(), mesh_laplacian_name, "points");
+  requireAtMost(most_triangles, triangles.rows(), mesh_laplacian_name, "triangles");
   const Workers workers(options.threads, options.progress);
   restart(result, Kind::mesh, points.rows(), workers);
   Report& report = result.report;

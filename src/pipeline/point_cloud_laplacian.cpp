@@ -22,14 +22,14 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "pointCloudLaplacian";
+constexpr const char* point_cloud_laplacian_name = "pointCloudLaplacian";
 
 /// Greatest number of link entries of all stars: somewhat less than the greatest number of triangles, since flips
 /// reserve some.
 constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
 
 [[noreturn]] void tooMany(std::int64_t points, std::int64_t entries) {
-  throw InvalidInput(std::string(function_name) + ": " + std::to_string(points) + " points with " +
+  throw InvalidInput(std::string(point_cloud_laplacian_name) + ": " + std::to_string(points) + " points with " +
                      std::to_string(entries) + " neighbours in their stars, must be at most " +
                      std::to_string(most_entries) + " neighbours (about 58 million points)");
 }
@@ -58,7 +58,7 @@ Laplacian pointCloudLaplacian(const PointsRef& points, const CloudOptions& optio
 
 void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, CloudBuild build, Laplacian& result,
                          CloudPart* part) {
-  checkCloudOptions(function_name, points, options);
+  checkCloudOptions(point_cloud_laplacian_name, points, options);
   if (points.rows() > INT32_MAX) tooMany(points.rows(), 6 * points.rows());
   const Workers workers(options.threads, options.progress);
   restart(result, Kind::cloud, points.rows(), workers);

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/infinity.h"
+
 namespace tufted {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Greatest number of corners in a leaf.
 constexpr int leaf_size = 16;
 constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();

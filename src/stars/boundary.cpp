@@ -18,7 +18,7 @@ constexpr int search_factor = 8;
 constexpr double off_plane = 0.25;  // share of the fit radius, as between the heights of two sheets
 constexpr double farthest = 2;      // points farther away than this many longest edges do not count as beyond a gap
 /// Bound on the coordinates of a viewpoint, in median spreads, since their squares must fit a double.
-constexpr double infinity = 1e70;
+constexpr double far_away = 1e70;
 
 enum class View { along_normal, from_viewpoint };
 
@@ -138,7 +138,7 @@ Buffer<Boundary> findBoundary(BuiltStars& built, const RankedCloud& cloud, const
   Buffer<Boundary> boundary(stars.size(), Boundary::none);
   built.support.boundary_reach.assign(stars.size(), 0);
   BoundaryFinder finder(built, cloud.points, source);
-  const auto scaled = [&](double x) { return std::clamp(std::ldexp(x, -cloud.exponent), -infinity, infinity); };
+  const auto scaled = [&](double x) { return std::clamp(std::ldexp(x, -cloud.exponent), -far_away, far_away); };
   const bool any = std::any_of(stars.ends.begin(), stars.ends.end(), [](std::uint8_t ends) { return ends != 0; });
   if (any && viewpoint != nullptr) finder.lookFrom(viewpoint->unaryExpr(scaled), workers);
   Buffer<WorkerState> states(workers.count());

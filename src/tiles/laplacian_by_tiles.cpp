@@ -16,7 +16,7 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "laplacianByTiles";
+constexpr const char* laplacian_by_tiles_name = "laplacianByTiles";
 /// Bytes per point that a build takes with its rows: 500 to 650 were measured on terrains of 1 and 5 million points.
 constexpr double point_bytes = 700;
 /// Bytes that are taken whatever the number of points in a tile: the program, batches of points and the cells.
@@ -25,13 +25,13 @@ constexpr double fixed_bytes = 250e6;
 constexpr double own_share = 0.6;
 
 [[noreturn]] void refuse(const std::string& text) {
-  throw InvalidInput(std::string(function_name) + ": " + text);
+  throw InvalidInput(std::string(laplacian_by_tiles_name) + ": " + text);
 }
 
 void checkOptions(const TileOptions& options) {
   const CloudOptions& cloud = options.cloud;
   checkCloudOptions(
-      function_name, Points(0, 3),
+      laplacian_by_tiles_name, Points(0, 3),
       {.neighbors = cloud.neighbors, .mollify = cloud.mollify, .threads = cloud.threads, .paper = cloud.paper});
   if (options.tiles < 0) refuse("tiles = " + std::to_string(options.tiles) + ", must be >= 0");
   if (!(options.memory > fixed_bytes))
@@ -50,7 +50,8 @@ void checkOptions(const TileOptions& options) {
 }
 
 void ask(const TileOptions& options, const char* stage, double share) {
-  if (options.progress && !options.progress(stage, share)) throw Cancelled(std::string(function_name) + ": cancelled");
+  if (options.progress && !options.progress(stage, share))
+    throw Cancelled(std::string(laplacian_by_tiles_name) + ": cancelled");
 }
 
 /// The points of a source, whose passes ask whether to go on.

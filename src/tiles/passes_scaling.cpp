@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "base/infinity.h"
 
 namespace tufted {
 namespace {
@@ -13,7 +14,6 @@ constexpr std::int64_t samples = 65536;  // 512 kB per coordinate, and then 2 % 
 /// The median of all is first searched between the samples so many places beside their median: four standard
 /// deviations.
 constexpr std::ptrdiff_t beside = 512;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The exact median of values that are given in passes: only those near the median of a sample are kept.
 class MedianSearch {

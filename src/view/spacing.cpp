@@ -20,7 +20,7 @@ constexpr std::int64_t window = 14;
 /// The distance to this neighbour, counted from 1, is the spacing; on a square grid it is a diagonal.
 constexpr std::size_t neighbor = 8;
 /// Points per parallel task.
-constexpr std::int64_t block_size = 8192;
+constexpr std::int64_t spacing_block = 8192;
 /// Radius of a disc in units of the spacing. Less leaves holes between randomly spaced points.
 constexpr float disc_share = 0.85F;
 /// Greatest radius of a disc, as a share of half the scene's size.
@@ -31,7 +31,7 @@ constexpr float most_of_others = 4;
 constexpr float plane_reach = 2;
 /// Points lie on a line, which has no normal, if their second variance is below this share of the greatest one: that of
 /// a strip five times as long as wide.
-constexpr float least_width = 0.04F;
+constexpr float least_breadth = 0.04F;
 /// Points lie on a surface if the mean of the unit normals around them is longer than this: the middle between 0.5,
 /// which is that of random directions on one side, and 1.
 constexpr float least_agreement = 0.75F;
@@ -50,7 +50,7 @@ std::uint64_t spread(std::uint64_t x) {
 }
 
 /// The Morton code of a position in a cube that is moved by `shift`.
-std::uint64_t placeOf(const Eigen::Vector3d& position, double shift) {
+std::uint64_t mortonCodeOf(const Eigen::Vector3d& position, double shift) {
   std::uint64_t place = 0;
   for (int k = 0; k < 3; ++k) {
     const double share = std::clamp((position[k] + 4 + shift) / 9, 0.0, 1.0);
@@ -69,7 +69,7 @@ struct Placed {
 std::vector<Placed> alongCurve(const NormalizedPoints& points, double shift) {
   std::vector<std::pair<std::uint64_t, int>> places;
   places.reserve(points.finite.size());
-  for (const int i : points.finite) places.emplace_back(placeOf(points.positions.row(i).transpose(), shift), i);
+  for (const int i : points.finite) places.emplace_back(mortonCodeOf(points.positions.row(i).transpose(), shift), i);
   std::sort(places.begin(), places.end());
   std::vector<Placed> order;
   order.reserve(places.size());
@@ -120,7 +120,7 @@ Eigen::Vector3f normalAt(const Eigen::Vector3f& center, const std::vector<Placed
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(products - sum * sum.transpose() / count);
   const Eigen::Vector3f& variances = solver.eigenvalues();
-  if (!(variances[1] > least_width * variances[2])) return Eigen::Vector3f::Zero();
+  if (!(variances[1] > least_breadth * variances[2])) return Eigen::Vector3f::Zero();
   return solver.eigenvectors().col(0);
 }
 
@@ -142,7 +142,7 @@ Eigen::Vector3f meanNormal(std::size_t own, const std::vector<Placed>& placed, c
 /// radius of all orders.
 void measure(const std::vector<Placed>& placed, int threads, Discs& discs) {
   const std::int64_t count = std::ssize(placed);
-  forBlocks(threads, count, block_size, [&](std::int64_t begin, std::int64_t end) {
+  forBlocks(threads, count, spacing_block, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a < end; ++a) {
       const Placed& own = placed[static_cast<std::size_t>(a)];
       const Window nearby(count, a);
@@ -165,7 +165,7 @@ void smoothNormals(const std::vector<Placed>& placed, int threads, Discs& discs)
   along.reserve(placed.size());
   for (const Placed& one : placed) along.push_back(discs.normals[static_cast<std::size_t>(one.point)]);
   const std::int64_t count = std::ssize(placed);
-  forBlocks(threads, count, block_size, [&](std::int64_t begin, std::int64_t end) {
+  forBlocks(threads, count, spacing_block, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t a = begin; a < end; ++a) {
       const auto own = static_cast<std::size_t>(a);
       const auto i = static_cast<std::size_t>(placed[own].point);

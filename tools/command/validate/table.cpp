@@ -6,8 +6,6 @@
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct Column {
   const char* title;
   int width;
@@ -33,8 +31,8 @@ constexpr Column columns[] = {{"points", 9, "points", ""},
                               {"coinc", 7, "coincident", ""},
                               {"isol", 6, "isolated", ""}};
 
-std::string cell(const Json& row, const Column& column) {
-  const Json value = row.value(column.member, Json());
+std::string cell(const nlohmann::ordered_json& row, const Column& column) {
+  const nlohmann::ordered_json value = row.value(column.member, nlohmann::ordered_json());
   if (value.is_null()) return "-";
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "NO";
   if (!value.is_number_float() || value == 0) return value.is_number_float() ? "0" : value.dump();
@@ -55,14 +53,14 @@ std::string tableHeader() {
   return line + "  file";
 }
 
-std::string tableLine(const Json& row) {
+std::string tableLine(const nlohmann::ordered_json& row) {
   std::string line = row.at("result").get<std::string>();
   line.resize(std::max(line.size(), std::size_t{7}), ' ');  // the length of "REFUSED", the longest
   for (const Column& column : columns) line += aligned(cell(row, column), column.width);
   line += "  " + row.at("file").get<std::string>();
   std::string separator = ": ";
   for (const char* member : {"reasons", "not_checked"})
-    for (const Json& reason : row.value(member, Json::array()))
+    for (const nlohmann::ordered_json& reason : row.value(member, nlohmann::ordered_json::array()))
       line += std::exchange(separator, "; ") + reason.get<std::string>();
   // Names of files and messages may contain control characters, such as newlines.
   std::ranges::replace_if(
