@@ -13,5 +13,6 @@ void printSymmetry();     ///< symmetry and slopes of distances, and points not 
 void printLogMaps();      ///< lines that follow logarithmic maps
 void printSigned();       ///< signed distances from circles, and on real shapes
 void printQuery();        ///< times of queries
+void printPeers();        ///< times of CGAL beside those of tools/time_methods.py
 
 }  // namespace tufted::bench
