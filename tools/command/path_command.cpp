@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "command.h"
 #include "moved_points.h"
@@ -9,6 +10,7 @@
 #include "taking_part.h"
 #include "tufted/distance.h"
 #include "tufted/path.h"
+#include "tufted/surface_triangles.h"
 
 namespace path_command {
 namespace {
@@ -19,12 +21,16 @@ constexpr const char* footer =
     R"(Examples:
   tufted path scan.ply --from 0 --to 99 --out path
   tufted path mesh.off --from 1,0,0 --to -1,0,0 --out path
+  tufted path mesh.off --from 1,0,0 --via 0,1,0 --to -1,0,0 --closed --out loop
 
 A first path descends the distance from --to to --from. It is then straightened across the triangles until no path close
-to it is shorter.
+to it is shorter. --via says on which side of handles and hills it passes: the way through these points is straightened,
+and need not pass them in the end. With --closed it leads back to --from: a loop, which keeps none of the points, and
+contracts to a single one where nothing holds it.
 
 Files in DIR, which replace older ones when all are complete:
-  path.npy      K x 3, float64: the two ends, and where the path crosses edges between points
+  path.npy      K x 3, float64: the two ends, and where the path crosses edges between points; of a loop the first
+                point again at the end
   lines.ply     the path as points and the edges between them
   lines.obj     the path as points and an element l
   lines.svg     a plan of the path to scale, seen from above, y up
@@ -38,29 +44,56 @@ needs the triangles of the cover.)";
 struct Settings {
   OperatorSettings source;
   std::string from, to;
-  std::vector<Place> ends;
+  std::vector<std::string> via;
+  bool is_closed = false;
+  std::vector<Place> stops;
 
   std::vector<std::string> files() const { return {"path.npy", "distance.npy", "lines.ply", "lines.obj", "lines.svg"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
-  settings.ends = {placeOf(parseNumbers(settings.from, "--from"), source, "--from " + settings.from),
-                   placeOf(parseNumbers(settings.to, "--to"), source, "--to " + settings.to)};
+  const auto add = [&](const std::string& option, const std::string& text) {
+    settings.stops.push_back(placeOf(parseNumbers(text, option), source, option + " " + text));
+  };
+  add("--from", settings.from);
+  for (const std::string& text : settings.via) add("--via", text);
+  add("--to", settings.to);
+}
+
+/// The way through points, straightened; of a cloud on its triangles, which do not overlap.
+tufted::SurfacePath wayThrough(std::vector<int> stops, bool is_closed, const Operator& source) {
+  const tufted::PathOptions options = {source.threads, source.progress};
+  if (source.laplacian.kind == tufted::Kind::mesh)
+    return tufted::PathSolver(source.laplacian, options).through(stops, is_closed, source.progress);
+  for (int& stop : stops) stop = source.laplacian.representative[stop];
+  const tufted::Laplacian on_triangles =
+      tufted::meshLaplacian(source.laplacian.positions, joinedTriangles(source),
+                            {.mollify = 0, .threads = source.threads, .progress = source.progress});
+  return tufted::PathSolver(on_triangles, options).through(stops, is_closed, source.progress);
 }
 
 Results compute(Settings& settings, Operator& source) {
   Results results;
-  const std::vector<int> ends = locate(settings.ends, source, results);
-  requireTakingPart(ends, source);
-  const tufted::PathSolver solver(source.laplacian, {source.threads, source.progress});
-  const tufted::SurfacePath path =
-      blameSurface(source, [&] { return solver.query(ends[0], ends[1], source.progress); });
+  const std::vector<int> stops = locate(settings.stops, source, results);
+  requireTakingPart(stops, source);
+  const tufted::SurfacePath path = blameSurface(source, [&] {
+    if (stops.size() > 2 || settings.is_closed) return wayThrough(stops, settings.is_closed, source);
+    const tufted::PathSolver solver(source.laplacian, {source.threads, source.progress});
+    return solver.query(stops.front(), stops.back(), source.progress);
+  });
   const tufted::DistanceSolver distances(source.laplacian, {.solver = source.solverOptions()});
-  results.arrays = {{.name = "path", .values = path.points, .per_point = false},
-                    {.name = "distance", .values = distances.query({ends[0]}, nullptr, source.progress)}};
-  results.lines = {{.points = path.points, .length = path.length}};
-  results.report["from_point"] = ends[0];
-  results.report["to_point"] = ends[1];
+  Eigen::MatrixXd drawn = path.points;
+  if (settings.is_closed) {
+    drawn.conservativeResize(drawn.rows() + 1, 3);
+    drawn.bottomRows(1) = drawn.topRows(1);
+  }
+  results.arrays = {{.name = "path", .values = drawn, .per_point = false},
+                    {.name = "distance", .values = distances.query({stops.front()}, nullptr, source.progress)}};
+  results.lines = {{.points = path.points, .is_closed = settings.is_closed, .length = path.length}};
+  results.report["from_point"] = stops.front();
+  if (stops.size() > 2) results.report["via_points"] = std::vector<int>(stops.begin() + 1, stops.end() - 1);
+  results.report["to_point"] = stops.back();
+  results.report["closed"] = settings.is_closed;
   results.report["length"] = path.length;
   results.report["shortenings"] = path.shortenings;
   results.summary.add("length", "%.6g, %lld points", path.length, static_cast<long long>(path.points.rows()));
@@ -84,4 +117,11 @@ void addPath(CLI::App& app, Run& run) {
                    "End of the path: index of a point, or a position, which stands for the nearest point")
       ->required()
       ->type_name("I|X,Y,Z");
+  command
+      ->add_option("--via", settings->via,
+                   "A point through which the way leads before it is straightened: as --from; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("I|X,Y,Z");
+  command->add_flag("--closed", settings->is_closed,
+                    "Straighten the way back to --from as well: a loop, which keeps none of the points");
 }
