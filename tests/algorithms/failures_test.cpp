@@ -237,7 +237,7 @@ TEST(Progress, CancelsSolvesAndQueriesAtEveryCall) {
   }
 }
 
-TEST(Failures, NameAChoiceThatIsNone) {
+TEST(EveryFunction, RefusesAChoiceThatIsNone) {
   const shapes::Mesh mesh = shapes::gridSquare(6);
   const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
   const Frames frames = meshFrames(mesh.points, mesh.triangles);

@@ -1,6 +1,7 @@
 // The subcommands trace and isolines, and the files of their lines.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -61,6 +62,25 @@ TEST_F(Lines, PathIsWrittenAsLineToo) {
   const std::string text = readAll(dir_ / "out/lines.obj");
   EXPECT_TRUE(text.starts_with("v 1 0 0\n") && contains(text, "v 0 1 0\nl 1 ")) << text;
   EXPECT_TRUE(contains(readAll(dir_ / "out/lines.svg"), "d=\"M820 820L")) << readAll(dir_ / "out/lines.svg");
+}
+
+TEST_F(Lines, PathLeadsAroundATubeOnTheSideThatPointsSay) {
+  const std::string tube = dir_.write("tube.off",
+                                      "OFF\n6 6 0\n0 0 0\n3 0 0\n0 4 0\n0 0 1\n3 0 1\n0 4 1\n"
+                                      "3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n");
+  const auto length = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"path", tube, "--from", "0", "--to", "1", "--out", in("out")});
+    run(more);
+    return report("out")["length"].get<double>();
+  };
+  EXPECT_NEAR(length({}), 3, 1e-15);
+  EXPECT_NEAR(length({"--via", "0,4,0"}), 9, 1e-14);
+  EXPECT_EQ(report("out")["via_points"], std::vector<int>({2}));
+  EXPECT_NEAR(length({"--via", "2", "--closed"}), 12, 1e-14);
+  const std::vector<double> loop = values("out/path.npy");
+  EXPECT_TRUE(std::equal(loop.begin(), loop.begin() + 3, loop.end() - 3));
+  EXPECT_TRUE(contains(readAll(dir_ / "out/lines.svg"), "Z\"")) << readAll(dir_ / "out/lines.svg");
+  expectRefusal({"path", tube, "--from", "0", "--to", "1", "--via", "6"}, "--via 6 is no index");
 }
 
 TEST_F(Lines, TraceRefusesOtherThanOneStartAndDirection) {

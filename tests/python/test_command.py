@@ -123,6 +123,17 @@ def test_signed_distance(tmp_path):
                                   surface.signed_distance(curve, sources=1, method="marching"))
 
 
+@pytest.mark.parametrize("name", ["torus_uniform.ply", "icosphere.ply"])
+def test_ways_through_points(name, tmp_path):
+    surface = tufted.read(DATASETS / name)
+    for closed in (False, True):
+        run("path", DATASETS / name, "--from", "0", "--via", "20", "--via", "70", "--to", "99",
+            *["--closed"] * closed, "--out", tmp_path)
+        expected = surface.path_through([0, 20, 70, 99], closed=closed).points
+        np.testing.assert_array_equal(np.load(tmp_path / "path.npy"),
+                                      np.vstack([expected, expected[:1]]) if closed else expected)
+
+
 def test_weights(tmp_path):
     (tmp_path / "handles.txt").write_text("3 0\n90 1\n4 0\n")
     run("weights", DATASETS / "fins.obj", "--handles", tmp_path / "handles.txt", "--out", tmp_path)

@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
                                                     {"signed", bench::printSigned},
                                                     {"logmap", bench::printLogMaps},
                                                     {"query", bench::printQuery},
+                                                    {"peers", bench::printPeers},
                                                     {"obtuse", printObtuse},
                                                     {"green", printGreen},
                                                     {"maps", bench::printMaps},
