@@ -13,6 +13,7 @@
 #include "extent.h"
 #include "operator.h"
 #include "options.h"
+#include "point_options.h"
 #include "reports.h"
 #include "tufted/errors.h"
 #include "tufted/signatures.h"
@@ -31,7 +32,10 @@ The signatures, in 1 / length^2, are computed from the K smallest positive eigen
 phi_i, and from the constants on connected components.
   heat  sum of exp(-lambda_i t) phi_i(x)^2 at S times t from 4 ln 10 / lambda_K to 4 ln 10 / lambda_1, or at --times. A
         time is refused if heat has not left its point by then, or is already evenly distributed.
-  wave  weighted means of phi_i(x)^2 around S energies from log lambda_1 to log lambda_K
+  wave  weighted means of phi_i(x)^2 around S energies from log lambda_1 to log lambda_K, or within --energies
+
+These ranges differ by shape. To compare two shapes give the second one the times of the first, times the ratio of their
+areas, or the first and last energy of the first, less the logarithm of this ratio.
 
 Files in DIR, which replace older ones when all are complete:
   hks.npy      N x S, float64 (wks.npy with --wave); 0 at points that take no part, at coincident points as at their
@@ -50,6 +54,8 @@ struct Settings {
   int samples = 0;  ///< 0: the default, 16 times or 100 energies
   bool wave = false;
   std::vector<double> times;
+  std::string energies;
+  std::vector<double> range;  ///< of `energies`, or empty
 
   int samplesOrDefault() const { return samples > 0 ? samples : wave ? 100 : 16; }
   std::vector<std::string> files() const {
@@ -72,6 +78,12 @@ std::string isTime(const std::string& text) {
 
 void check(Settings& settings, const Operator& source) {
   checkPairs(settings.pairs, source);
+  if (!settings.energies.empty()) {
+    settings.range = parseNumbers(settings.energies, "--energies");
+    if (settings.range.size() != 2 || !(settings.range[0] < settings.range[1]) || !std::isfinite(settings.range[1]))
+      throw tufted::InvalidInput("--energies " + settings.energies +
+                                 " is no FIRST,LAST, must be two ascending numbers");
+  }
   settings.source.stages = spectralStages(settings.pairs.count);
   const auto times = settings.times.empty() ? settings.samplesOrDefault() : static_cast<int>(settings.times.size());
   settings.source.shown = {{settings.wave ? "wks" : "hks", times}};
@@ -97,8 +109,14 @@ void checkTimes(const std::vector<double>& times, const tufted::Spectrum& spectr
 std::vector<tufted::ResultArray> signatures(const Settings& settings, const tufted::Laplacian& laplacian,
                                             const tufted::Spectrum& spectrum) {
   if (settings.wave) {
-    const tufted::VectorXd energies = tufted::waveEnergies(spectrum, settings.samplesOrDefault());
-    return {{.name = "wks", .values = tufted::waveKernelSignature(spectrum, static_cast<int>(energies.size()))},
+    const int count = settings.samplesOrDefault();
+    const tufted::VectorXd energies = settings.range.empty()
+                                          ? tufted::waveEnergies(spectrum, count)
+                                          : tufted::VectorXd::LinSpaced(count, settings.range[0], settings.range[1]);
+    return {{.name = "wks",
+             .values = settings.range.empty()
+                           ? tufted::waveKernelSignature(spectrum, count)
+                           : tufted::waveKernelSignature(spectrum, energies, 7 * (energies[1] - energies[0]))},
             {.name = "energies", .values = energies, .per_point = false}};
   }
   tufted::VectorXd times = Eigen::Map<const tufted::VectorXd>(settings.times.data(), std::ssize(settings.times));
@@ -144,4 +162,9 @@ void addHks(CLI::App& app, Run& run) {
       ->excludes(samples)
       ->excludes(wave)
       ->type_name("LIST");
+  command
+      ->add_option("--energies", settings->energies,
+                   "With --wave: the first and the last energy, natural logarithms of eigenvalues (of the eigenvalues)")
+      ->needs(wave)
+      ->type_name("FIRST,LAST");
 }
