@@ -1,6 +1,9 @@
 // Subcommands that use a Laplacian: its source, and where results go.
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+
 #include "subcommands.h"
 
 namespace spectrum_test {
@@ -205,6 +208,16 @@ TEST_F(SpectrumCommand, HksWritesSignaturesOfHeatAndOfWaves) {
   EXPECT_EQ(values("wave/wks.npy").size(), 50000u);
   EXPECT_EQ(values("wave/energies.npy").size(), 100u);
   EXPECT_NE(readAll(dir_ / "wave/points.pcd").find(" wks "), std::string::npos);
+  // The energies of one shape serve another one.
+  std::ostringstream range;
+  range.precision(17);
+  range << values("wave/energies.npy").front() << ',' << values("wave/energies.npy").back();
+  run({"hks", file, "--out", in("same"), "--count", "30", "--wave", "--energies", range.str()});
+  const std::vector<double> wave = values("wave/wks.npy"), same = values("same/wks.npy");
+  for (std::size_t i = 0; i < wave.size(); ++i) EXPECT_NEAR(same[i], wave[i], 1e-9 * wave[i]) << i;
+  for (const char* energies : {"1", "2,1", "nan,1", "1,inf"})
+    expectRefusal({"hks", file, "--wave", "--energies", energies}, std::string("--energies ") + energies);
+  expectRefusal({"hks", file, "--energies", "1,2"}, "--energies requires --wave");
   expectRefusal({"hks", file, "--times", "1", "--samples", "3"}, "--samples");
   expectRefusal({"hks", file, "--times", "1", "--wave"}, "--wave");
   for (const char* times : {"-1", "0", "nan", "1,nan", "inf", "1,x"})

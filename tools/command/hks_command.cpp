@@ -16,7 +16,10 @@ The signatures, in 1 / length^2, are computed from the K smallest positive eigen
 phi_i, and from the constants on connected components.
   heat  sum of exp(-lambda_i t) phi_i(x)^2 at S times t from 4 ln 10 / lambda_K to 4 ln 10 / lambda_1, or at --times. A
         time is refused if heat has not left its point by then, or is already evenly distributed.
-  wave  weighted means of phi_i(x)^2 around S energies from log lambda_1 to log lambda_K
+  wave  weighted means of phi_i(x)^2 around S energies from log lambda_1 to log lambda_K, or within --energies
+
+These ranges differ by shape. To compare two shapes give the second one the times of the first, times the ratio of their
+areas, or the first and last energy of the first, less the logarithm of this ratio.
 
 Files in DIR, which replace older ones when all are complete:
   hks.npy      N x S, float64 (wks.npy with --wave); 0 at points that take no part, at coincident points as at their
@@ -41,6 +44,12 @@ Files in DIR, which replace older ones when all are complete:
         ->excludes(samples_option)
         ->excludes(wave_flag)
         ->type_name("LIST");
+    command
+        .add_option(
+            "--energies", energies,
+            "With --wave: the first and the last energy, natural logarithms of eigenvalues (of the eigenvalues)")
+        ->needs(wave_flag)
+        ->type_name("FIRST,LAST");
   }
 
   /// Parses a time; nullopt unless it is finite and above 0.
@@ -55,6 +64,11 @@ Files in DIR, which replace older ones when all are complete:
 
   void check(const Operator& source) override {
     checkPairs(pairs, source);
+    if (!energies.empty()) {
+      range = parseNumbers(energies, "--energies");
+      if (range.size() != 2 || !(range[0] < range[1]) || !std::isfinite(range[1]))
+        throw tufted::InvalidInput("--energies " + energies + " is no FIRST,LAST, must be two ascending numbers");
+    }
     stages = spectralStages(pairs.count);
     shown = {{wave ? "wks" : "hks", times.empty() ? samplesOrDefault() : std::ssize(times)}};
   }
@@ -80,9 +94,13 @@ Files in DIR, which replace older ones when all are complete:
   std::vector<tufted::ResultArray> signatures(const tufted::Laplacian& laplacian,
                                               const tufted::Spectrum& spectrum) const {
     if (wave) {
-      const tufted::VectorXd energies = tufted::waveEnergies(spectrum, samplesOrDefault());
-      return {{.name = "wks", .values = tufted::waveKernelSignature(spectrum, static_cast<int>(energies.size()))},
-              {.name = "energies", .values = energies, .per_point = false}};
+      const int count = samplesOrDefault();
+      const tufted::VectorXd at = range.empty() ? tufted::waveEnergies(spectrum, count)
+                                                : tufted::VectorXd::LinSpaced(count, range[0], range[1]);
+      return {{.name = "wks",
+               .values = range.empty() ? tufted::waveKernelSignature(spectrum, count)
+                                       : tufted::waveKernelSignature(spectrum, at, 7 * (at[1] - at[0]))},
+              {.name = "energies", .values = at, .per_point = false}};
     }
     tufted::VectorXd used = Eigen::Map<const tufted::VectorXd>(times.data(), std::ssize(times));
     if (times.empty()) used = tufted::heatTimes(spectrum, samplesOrDefault());
@@ -108,6 +126,8 @@ Files in DIR, which replace older ones when all are complete:
   int samples = 0;  ///< 0: the default, 16 times or 100 energies
   bool wave = false;
   std::vector<double> times;
+  std::string energies;
+  std::vector<double> range;  ///< of `energies`, or empty
 
   int samplesOrDefault() const { return samples > 0 ? samples : wave ? 100 : 16; }
   std::vector<std::string> files() const override {
