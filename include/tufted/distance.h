@@ -171,7 +171,7 @@ class DistanceSolver {
   NearestSources nearest(const std::vector<SurfacePoint>& sources, DistanceReport* report = nullptr,
                          const Progress& progress = {}) const;
 
-  /// Computes the distances from each of some sources.
+  /// Computes the distances from each of some sources, as many at once as there are threads.
   /// @param symmetric whether the distances between sources, found from either end, are replaced by the mean of both.
   /// They differ by some thousandths of the largest distance on smooth surfaces, on coarse meshes by up to 6 %.
   /// @return N x S, a column for each source; infinite for a source on no component. Values and errors are otherwise
