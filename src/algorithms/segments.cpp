@@ -34,7 +34,7 @@ constexpr int usual_count = 8;
 void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
   const std::string name = std::string(segments_name) + ": ";
   if (components.points.empty()) throw InvalidInput(name + "no point is active, must be at least one");
-  requireChoice(options.method, SegmentMethod::parts, function_name, "method");
+  requireChoice(options.method, SegmentMethod::parts, segments_name, "method");
   if (options.method != SegmentMethod::voronoi) {
     const bool is_parts = options.method == SegmentMethod::parts;
     const std::string none = std::string(", must be none with SegmentMethod::") + (is_parts ? "parts" : "spectral");
