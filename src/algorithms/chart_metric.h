@@ -10,8 +10,8 @@
 namespace tufted {
 
 /// The sides of a triangle with less slack than this part of its longest side are lengthened, so that its angles are
-/// defined.
-constexpr double least_slack = 1e-8;
+/// defined. With 1e-8 a plate of 9000 x 2 came out 29 % too short, with 1e-14 one of 50,000 x 1 is refused.
+constexpr double least_slack = 1e-13;
 /// The longest side of a triangle counts as at least this long, in units of about the longest side of the chart.
 constexpr double shortest_side = 1e-12;
 

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/symmetric_eigen.h"
@@ -17,6 +21,41 @@ namespace tufted {
 namespace {
 
 constexpr const char* mesh_frames_name = "meshFrames";
+
+/// A triangle whose height is at most this part of its coordinates has a normal of rounding alone.
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+
+/// Gives vertices without a normal, as all of their triangles are flat, the moments and sums of their neighbours, ring
+/// by ring.
+void spreadToFlat(const TrianglesRef& triangles, std::vector<Eigen::Matrix3d>& moments, Points& sums) {
+  const auto isKnown = [&](int i) { return moments[i].trace() > 0; };
+  std::map<int, std::vector<int>> neighbors;  // of vertices that are not known
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    for (int k = 0; k < 3; ++k)
+      if (const int i = triangles(f, k); !isKnown(i))
+        for (const int j : {triangles(f, (k + 1) % 3), triangles(f, (k + 2) % 3)}) neighbors[i].push_back(j);
+  std::set<int> ring;
+  for (const auto& [i, around] : neighbors)
+    if (std::any_of(around.begin(), around.end(), isKnown)) ring.insert(i);
+  while (!ring.empty()) {
+    std::vector<std::pair<Eigen::Matrix3d, Eigen::RowVector3d>> found;
+    std::set<int> next;
+    for (const int i : ring) {
+      found.emplace_back(Eigen::Matrix3d::Zero(), Eigen::RowVector3d::Zero());
+      for (const int j : neighbors[i]) {
+        found.back().first += moments[j];
+        found.back().second += sums.row(j);
+        if (!isKnown(j) && ring.count(j) == 0) next.insert(j);
+      }
+    }
+    std::size_t at = 0;
+    for (const int i : ring) {
+      moments[i] = found[at].first;
+      sums.row(i) = found[at++].second;
+    }
+    ring = std::move(next);
+  }
+}
 
 /// Whether triangles are consistently oriented: no two have an edge in the same direction.
 /// @param directed edges of all triangles, each from its first to its second corner; overwritten
@@ -38,10 +77,12 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
     const Eigen::RowVector3d u = points.row(triangles(f, 1)) - a, v = points.row(triangles(f, 2)) - a;
     const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
     if (!(size > 0) || !std::isfinite(size)) continue;
+    const double coordinate =
+        std::max({a.cwiseAbs().maxCoeff(), (a + u).cwiseAbs().maxCoeff(), (a + v).cwiseAbs().maxCoeff()});
     // The normal, as long as twice the area over `size`, as the area itself may underflow.
     const Eigen::RowVector3d normal = (u / size).cross(v / size) * size;
     const double weight = normal.stableNorm();
-    if (!(weight > 0)) continue;
+    if (!(weight > rounding * coordinate)) continue;
     for (int k = 0; k < 3; ++k) {
       moments[triangles(f, k)] += normal.transpose() * (normal / weight);
       sums.row(triangles(f, k)) += normal;
@@ -49,6 +90,7 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
                          static_cast<std::uint64_t>(triangles(f, (k + 1) % 3)));
     }
   }
+  spreadToFlat(triangles, moments, sums);
   Frames frames{Points(points.rows(), 3), Points(points.rows(), 3),
                 agree(directed) ? Orientation::given : Orientation::arbitrary};
   for (Eigen::Index i = 0; i < points.rows(); ++i) {

@@ -91,6 +91,15 @@ TEST_F(Validate, GivesEveryFileALineInOrderAndSumsUp) {
   EXPECT_TRUE(lines[4].starts_with("3 files: 2 OK, 1 REFUSED, 0 FAILED, ")) << lines[4];
 }
 
+TEST_F(Validate, WarnsAsOtherSubcommandsDo) {
+  // A triangle that is too thin for the lengths of its edges to say its shape.
+  const std::string thin = dir_.write("thin.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0.3 1e-12 0\n3 0 1 2\n");
+  const Result validated = runTufted({"validate", thin}), built = runTufted({"laplacian", thin, "--out", dir_ / "out"});
+  EXPECT_EQ(validated.code, 0) << validated.err;
+  EXPECT_TRUE(contains(validated.err, "more area than its triangles")) << validated.err;
+  EXPECT_EQ(validated.err, built.err);
+}
+
 TEST_F(Validate, TakesWhatIsReadableBelowAFolderSortedAndAnyFileThatIsNamed) {
   fs::create_directory(dir_ / "b");
   const std::string last = writeTetrahedron("c.OFF"), inner = writeTetrahedron("b/x.off");

@@ -116,6 +116,26 @@ TEST_P(ThinPlate, HasItsAreaAndItsFrequenciesUpToTheAspectThatDoublesAllow) {
   }
 }
 
+TEST_P(ThinPlate, IsFlattenedInItsOwnSize) {
+  for (const double aspect : {1.0, 1e2, 4500.0}) {
+    const Builder mesh = plate(GetParam(), aspect, 101);
+    const Laplacian laplacian = meshLaplacian(mesh.points(), mesh.triangles());
+    const Eigen::MatrixX2d uv = parameterize(laplacian, mesh.triangles());
+    // The ends of the side with 61 points: the first one, and that after the second corner and these.
+    const double length = (mesh.points().row(63) - mesh.points().row(0)).norm();
+    EXPECT_NEAR((uv.row(63) - uv.row(0)).norm(), length, 0.01 * length) << aspect;
+  }
+}
+
+TEST_P(ThinPlate, HasOneNormal) {
+  for (const double aspect : {1.0, 4500.0, 1e6}) {
+    const Builder mesh = plate(GetParam(), aspect, 101);
+    const Points normals = meshFrames(mesh.points(), mesh.triangles()).normals;
+    const VectorXd cosine = (normals * Eigen::Vector3d(0.6, -0.8, 0)).cwiseAbs();
+    EXPECT_NEAR(cosine.minCoeff(), 1, 1e-6) << aspect;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, ThinPlate,
                          testing::Values(Kind::fan_from_near, Kind::fan_from_far, Kind::both_ends, Kind::strip));
 

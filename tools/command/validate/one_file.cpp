@@ -123,6 +123,8 @@ void judgeInto(const OneFile& file, Json& row, std::string& stage) {
   stage = "check";
   const tufted::LaplacianCheck check = tufted::validate(laplacian);
   row.update(figuresOf(check, laplacian.report));
+  for (const std::string& line : tufted::warnings(laplacian.report))
+    row["warnings"].push_back(file.path.string() + ": " + line);
   const std::string nothing = nothingActive(laplacian);
   row["result"] = !check.ok() ? "FAILED" : nothing.empty() ? "OK" : "EMPTY";
   row["reasons"] = check.faults;
