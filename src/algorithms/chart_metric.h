@@ -10,8 +10,10 @@
 namespace tufted {
 
 /// The sides of a triangle with less slack than this part of its longest side are lengthened, so that its angles are
-/// defined. With 1e-8 a plate of 9000 x 2 came out 29 % too short, with 1e-14 one of 50,000 x 1 is refused.
-constexpr double least_slack = 1e-13;
+/// defined. With 1e-8 a plate of 9000 x 2 came out 29 % too short, with 1e-13 no eigenvector is found on some.
+constexpr double least_slack = 1e-12;
+/// No side is shorter than this part of the longest one.
+constexpr double least_side = 1e-8;
 /// The longest side of a triangle counts as at least this long, in units of about the longest side of the chart.
 constexpr double shortest_side = 1e-12;
 
@@ -54,7 +56,7 @@ inline TriangleSides measureTriangle(const Points& positions, const std::array<i
   const double longest = std::max(s[2], shortest_side), slack = s[0] - (s[2] - s[1]);
   if (!(slack >= least_slack * longest))
     for (double& length : l) length += least_slack * longest - std::min(slack, 0.0) - std::max(slack, 0.0);
-  for (double& length : l) length = std::max(length, least_slack * longest);
+  for (double& length : l) length = std::max(length, least_side * longest);
   s = sorted();
   if (!(s[0] - (s[2] - s[1]) > 0)) l = {longest, longest, longest};
   const double area = areaOf(sorted());

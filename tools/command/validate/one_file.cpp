@@ -123,9 +123,9 @@ void judgeInto(const OneFile& file, Json& row, std::string& stage) {
   stage = "check";
   const tufted::LaplacianCheck check = tufted::validate(laplacian);
   row.update(figuresOf(check, laplacian.report));
-  for (const std::string& line : tufted::warnings(laplacian.report))
-    row["warnings"].push_back(file.path.string() + ": " + line);
   const std::string nothing = nothingActive(laplacian);
+  for (const std::string& line : tufted::warnings(laplacian.report))
+    if (nothing.empty()) row["warnings"].push_back(file.path.string() + ": " + line);
   row["result"] = !check.ok() ? "FAILED" : nothing.empty() ? "OK" : "EMPTY";
   row["reasons"] = check.faults;
   if (!nothing.empty()) row["reasons"].push_back(nothing);
