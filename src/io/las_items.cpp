@@ -1,4 +1,3 @@
-
 #include <iterator>
 
 #include "io/las_header.h"

@@ -42,11 +42,8 @@ void readAscii(const std::filesystem::path& path, std::string_view text, LineSca
 
 // Not by PCL's reader, which cannot read standard input because it takes a file name, prints to a console that all
 // threads share, and needs the libraries of VTK.
-/// Unpacks LZF. A byte below 32 announces so many bytes and one more, which are taken as they are. Any other is the
-/// beginning of a length and a distance: as many bytes are repeated from so far back.
-/// @return whether the packed bytes are whole and give exactly those of `to`
-/// The compressed form has the compressed and the uncompressed size, then the fields one after another, without
-/// padding, compressed by LZF.
+// The compressed form has the compressed and the uncompressed size, then the fields one after another, without
+// padding, compressed by LZF.
 
 /// Unpacks LZF. A byte below 32 announces so many bytes and one more, which are taken as they are. Any other is the
 /// beginning of a length and a distance: as many bytes are repeated from so far back.
@@ -94,7 +91,7 @@ std::size_t readBinary(const std::filesystem::path& path, std::string_view bytes
   return static_cast<std::size_t>(value - bytes.data());
 }
 
-/// The compressed form has the compressed and the uncompressed size, then the fields one after another, without
+// The compressed form has the compressed and the uncompressed size, then the fields one after another, without
 /// padding, compressed by LZF.
 std::size_t readCompressed(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
   const std::size_t rest = bytes.size() - std::min(header.body, bytes.size());

@@ -1,12 +1,14 @@
 #include "neighbors/own_side.h"
 
+#include <algorithm>
+
 namespace tufted {
 namespace {
 
 /// Normals are opposed if the cosine between them is below this: from 120 degrees on.
 constexpr double opposed = -0.5;
 /// Opposed neighbours are on another side if their mean height exceeds this many times the root mean square of the
-/// others' heights.
+/// others' heights, and the standard deviation of their own: where two sides meet at a sharp edge, that has 1.7.
 constexpr double other_height = 2;
 
 }  // namespace
@@ -15,12 +17,13 @@ void keepOwnSide(const PointsView& points, const PointBuffer& normals, int p, Bu
   if (normals.rows() == 0) return;
   const Eigen::RowVector3d normal = normals.row(p);
   const auto isOpposed = [&](const Neighbor& q) { return normals.row(q.index).dot(normal) < opposed; };
-  double height = 0, squares = 0;
+  double height = 0, own_squares = 0, squares = 0;
   int removed = 0, kept = 0;
   for (const Neighbor& q : neighbors) {
     const double h = (points.row(q.index) - points.row(p)).dot(normal);
     if (isOpposed(q)) {
       height += h;
+      own_squares += h * h;
       ++removed;
     } else {
       squares += h * h;
@@ -28,8 +31,9 @@ void keepOwnSide(const PointsView& points, const PointBuffer& normals, int p, Bu
     }
   }
   if (removed == 0 || kept == 0) return;
-  const double mean = height / removed;
-  if (mean * mean > other_height * other_height * squares / kept) std::erase_if(neighbors, isOpposed);
+  const double mean = height / removed, variance = (own_squares - mean * height) / removed;
+  if (mean * mean > other_height * other_height * std::max(squares / kept, variance))
+    std::erase_if(neighbors, isOpposed);
 }
 
 }  // namespace tufted

@@ -215,7 +215,7 @@ TEST_F(SpectrumCommand, HksWritesSignaturesOfHeatAndOfWaves) {
   run({"hks", file, "--out", in("same"), "--count", "30", "--wave", "--energies", range.str()});
   const std::vector<double> wave = values("wave/wks.npy"), same = values("same/wks.npy");
   for (std::size_t i = 0; i < wave.size(); ++i) EXPECT_NEAR(same[i], wave[i], 1e-9 * wave[i]) << i;
-  for (const char* energies : {"1", "2,1", "nan,1", "1,inf"})
+  for (const char* energies : {"1", "2,1", "nan,1", "1,inf", "1,1.0000000000000002"})
     expectRefusal({"hks", file, "--wave", "--energies", energies}, std::string("--energies ") + energies);
   expectRefusal({"hks", file, "--energies", "1,2"}, "--energies requires --wave");
   expectRefusal({"hks", file, "--times", "1", "--samples", "3"}, "--samples");

@@ -239,6 +239,14 @@ TEST(Gradients, AcrossALineAreZero) {
   EXPECT_EQ((operators.Y * VectorXd(points.col(0))).cwiseAbs().maxCoeff(), 0);
 }
 
+TEST(MeshFrames, EndWhereAreasOverflow) {
+  const shapes::Mesh ball = shapes::icosphere(1);
+  for (const double size : {1e-320, 1e-160, 1e160, 1.2e308}) {
+    const Frames frames = meshFrames(size * ball.points, ball.triangles);
+    EXPECT_NEAR(frames.normals.rowwise().norm().minCoeff(), 1, 1e-12) << size;
+  }
+}
+
 TEST(MeshFrames, DoNotDependOnOrientation) {
   const shapes::Mesh one = shapes::gridSquare(16), mixed = shapes::mixedOrientation(16);
   const Frames frames = meshFrames(mixed.points, mixed.triangles);

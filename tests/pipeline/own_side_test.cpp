@@ -58,6 +58,29 @@ TEST(OpposedNormals, KeepTheSidesOfAThinPlateApart) {
   }
 }
 
+TEST(OpposedNormals, KeepASharpEdgeTogether) {
+  // Two squares that meet at an edge, one turned about it. Points of even index are on the flat one.
+  constexpr int n = 4000;
+  for (const double degrees : {58.0, 30.0, 15.0}) {
+    const double angle = degrees * M_PI / 180, side = std::sqrt(n / 2.0);
+    shapes::Random random(101);
+    Points points(n, 3), normals(n, 3);
+    for (int i = 0; i < n; ++i) {
+      const double turn = i % 2 != 0 ? angle : 0, sign = i % 2 != 0 ? 1 : -1;
+      const double x = side * random.uniform(), y = side * random.uniform();
+      points.row(i) << x * std::cos(turn), y, x * std::sin(turn);
+      normals.row(i) << -sign * std::sin(turn), 0, sign * std::cos(turn);
+    }
+    for (const Preset preset : {Preset::clean, Preset::scan}) {
+      CloudOptions options = cloudOptions(preset);
+      options.normals = &normals;
+      const Laplacian laplacian = pointCloudLaplacian(points, options);
+      EXPECT_EQ(componentSizes(componentLabels(laplacian)).size(), 1u) << degrees;
+      EXPECT_GT(edgesAcross(laplacian), 200) << degrees;
+    }
+  }
+}
+
 TEST(OpposedNormals, OfArbitrarySignsChangeNothing) {
   const shapes::Cloud ball = shapes::sphere(2000);
   shapes::Random random(101);

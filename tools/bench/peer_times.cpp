@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/distance_tables.h"
+#include "bench/tables.h"
 
 namespace tufted::bench {
 namespace {

@@ -13,6 +13,7 @@ void printSymmetry();         ///< symmetry and slopes of distances, and points 
 void printLogMaps();          ///< lines that follow logarithmic maps
 void printSigned();           ///< signed distances from circles, and on real shapes
 void printQuery();            ///< times of queries
+void printPeers();            ///< times of CGAL beside those of tools/time_methods.py
 void printMaps();             ///< conformal maps of half spheres and planes
 void printDisks();            ///< harmonic maps of CGAL's meshes that are disks
 void printMinimal();          ///< the catenoid

@@ -49,6 +49,7 @@ Files in DIR, which replace older ones when all are complete:
             "--energies", energies,
             "With --wave: the first and the last energy, natural logarithms of eigenvalues (of the eigenvalues)")
         ->needs(wave_flag)
+        ->check(notEmpty)
         ->type_name("FIRST,LAST");
   }
 
@@ -66,7 +67,8 @@ Files in DIR, which replace older ones when all are complete:
     checkPairs(pairs, source);
     if (!energies.empty()) {
       range = parseNumbers(energies, "--energies");
-      if (range.size() != 2 || !(range[0] < range[1]) || !std::isfinite(range[1]))
+      const double width = range.size() == 2 ? (range[1] - range[0]) / samplesOrDefault() : 0;
+      if (!(width > 0) || !std::isfinite(width) || !(range[0] + width > range[0]))
         throw tufted::InvalidInput("--energies " + energies + " is no FIRST,LAST, must be two ascending numbers");
     }
     stages = spectralStages(pairs.count);
