@@ -29,7 +29,7 @@ constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 /// by ring.
 void spreadToFlat(const TrianglesRef& triangles, std::vector<Eigen::Matrix3d>& moments, Points& sums) {
   const auto isKnown = [&](int i) { return moments[i].trace() != 0; };  // or not finite
-  std::map<int, std::vector<int>> neighbors;  // of vertices that are not known
+  std::map<int, std::vector<int>> neighbors;                            // of vertices that are not known
   for (Eigen::Index f = 0; f < triangles.rows(); ++f)
     for (int k = 0; k < 3; ++k)
       if (const int i = triangles(f, k); !isKnown(i))
