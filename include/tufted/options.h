@@ -42,7 +42,7 @@ struct CloudOptions {
   int threads = 0;         ///< at most this many threads; 0: one per processor
   bool keep_cover = true;  ///< false frees what the cover is built from (about 100 bytes per point, up to 700 on noise)
   /// N x 3, any length, used instead of those of the PCA. Signs matter: points with opposed normals may be the two
-  /// sides of a thin part, and are then no neighbours however close they are. Signs at random do no harm. Borrowed.
+  /// sides of a thin part, and are then no neighbours however close they are. Signs at random change little. Borrowed.
   const Points* normals = nullptr;
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices, used as they are and never grown; borrowed
   const ScanStructure* structure = nullptr;      ///< pixels of a depth image or rings of a scanner, used instead of a

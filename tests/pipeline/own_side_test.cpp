@@ -81,7 +81,7 @@ TEST(OpposedNormals, KeepASharpEdgeTogether) {
   }
 }
 
-TEST(OpposedNormals, OfArbitrarySignsChangeNothing) {
+TEST(OpposedNormals, OfArbitrarySignsChangeNothingOnASphere) {
   const shapes::Cloud ball = shapes::sphere(2000);
   shapes::Random random(101);
   const Points outwards = ball.points;
