@@ -34,7 +34,8 @@ class PointCloud(Surface):
     finite keep their index and take no part.
     preset: "scan" for real scans, "clean" for exact samples, "lidar" for spinning scanners.
     neighbors: number k >= 3 of nearest neighbours of each point.
-    normals: N x 3, any length, used with their sign for the tangent planes; None: planes are fitted.
+    normals: N x 3, any length, used with their sign for the tangent planes, and to tell the two sides of thin parts
+        apart, where they are opposed; None: planes are fitted.
     viewpoint: position of the sensor, 3 values; normals then face it.
     image: (width, height) of a depth image, whose pixels are the N points row by row: the pixels around a point are its
     neighbours, and noise is smoothed along the rays.
