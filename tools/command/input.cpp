@@ -24,10 +24,9 @@ void addSelection(CLI::App& command, ChosenPoints& chosen) {
       ->allow_extra_args(false)  // the next word may be FILE
       ->type_name("CONDITION");
   addText(command, "--crop X0,Y0,Z0,X1,Y1,Z1", chosen.crop, "Keep points in this box, sides included; clouds only");
-  addText(
-      command, "--polygon TEXT", chosen.polygon,
-      "Keep points in a polygon in x and y: text file of its corners, lines X Y; clouds only");  // by which inputsOf()
-                                                                                                 // finds it
+  // inputsOf() finds the file by the name TEXT.
+  addText(command, "--polygon TEXT", chosen.polygon,
+          "Keep points in a polygon in x and y: text file of its corners, lines X Y; clouds only");
   addNumber(command, "--thin SPACING", chosen.selection.thin, 1e-150, 1e150,
             "Then keep points of which no two are closer than this, in the unit of FILE; clouds only");
 }
@@ -124,10 +123,6 @@ tufted::Geometry readAny(const Input& input, const tufted::Progress& progress) {
   if (!pipe) throw tufted::IoError(input.name() + ": cannot be read");
   return tufted::read(pipe, input.name(), input.as, automatic, progress);
 }
-
-}  // namespace
-
-namespace {
 
 /// Bytes that this process may take, by the system and by the shell's `ulimit -v`.
 double usableMemory() {
