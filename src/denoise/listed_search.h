@@ -23,20 +23,18 @@ void forEachListed(const PointsView& points, const PointBuffer& normals, const N
   // Points per search: their neighbours stay in cache.
   constexpr std::size_t together = 32;
   BatchScratch scratch;
-  Buffer<Neighbor> found, own;
+  Buffer<Neighbor> found;
   const auto row = static_cast<std::size_t>(std::min(k, static_cast<int>(points.rows()) - 1));
   double radius = std::numeric_limits<double>::infinity();
   for (std::size_t begin = 0; begin < ranks.size(); begin += together) {
     const auto group = ranks.subspan(begin, std::min(together, ranks.size() - begin));
     nearestOfListed(search, points, group, k, kernels(), scratch, found, radius);
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const auto first = found.begin() + static_cast<std::ptrdiff_t>(i * row);
-      own.assign(first, first + static_cast<std::ptrdiff_t>(row));
-      keepOwnSide(points, normals, group[i], own);
-      visit(group[i], std::span<const Neighbor>(own));
-    }
     // An estimate for the next points, which are close.
     if (row > 0) radius = std::sqrt(found[row - 1].squared_distance);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const auto neighbors = std::span<Neighbor>(found).subspan(i * row, row);
+      visit(group[i], std::span<const Neighbor>(neighbors.first(keepOwnSide(points, normals, group[i], neighbors))));
+    }
   }
 }
 

@@ -126,16 +126,15 @@ SurfaceFits fitSurfaces(const PointsView& points, const PointBuffer& normals, co
   const int searched = normals.rows() > 0 ? std::min(2 * fits.pool_size, fits.count()) - 1 : fits.pool_size - 1;
   workers.forBlocks("pools", fits.count(), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     BatchScratch scratch;
-    Buffer<Neighbor> found, own;
+    Buffer<Neighbor> found;
     nearestOfEach(among_centers, places, static_cast<int>(begin), static_cast<int>(end - begin), searched, kernels(),
                   scratch, found);
     int* pooled = &fits.pool[begin * fits.pool_size];
-    auto next = found.begin();
-    for (auto c = static_cast<int>(begin); c < end; ++c, next += searched) {
-      own.assign(next, next + searched);
-      keepOwnSide(places, sides, c, own);
+    std::span<Neighbor> next(found);
+    for (auto c = static_cast<int>(begin); c < end; ++c, next = next.subspan(static_cast<std::size_t>(searched))) {
+      const auto own = static_cast<int>(keepOwnSide(places, sides, c, next.first(static_cast<std::size_t>(searched))));
       *pooled++ = c;
-      for (int i = 1; i < fits.pool_size; ++i) *pooled++ = i <= std::ssize(own) ? own[i - 1].index : c;
+      for (int i = 1; i < fits.pool_size; ++i) *pooled++ = i <= own ? next[static_cast<std::size_t>(i) - 1].index : c;
     }
   });
   return fits;

@@ -42,7 +42,7 @@ struct NeighborSource {
 
   /// Removes the neighbours on the other side of a thin part, see tufted::keepOwnSide().
   void keepOwnSide(const PointsView& points, int p, Buffer<Neighbor>& neighbors) const {
-    if (!isFixed()) tufted::keepOwnSide(points, normals, p, neighbors);
+    if (!isFixed()) neighbors.resize(tufted::keepOwnSide(points, normals, p, neighbors));
   }
 
   /// The k neighbours of every point of [first, first + count), row after row, see tufted::nearestOfEach(). Requires

@@ -13,8 +13,8 @@ constexpr double other_height = 2;
 
 }  // namespace
 
-void keepOwnSide(const PointsView& points, const PointBuffer& normals, int p, Buffer<Neighbor>& neighbors) {
-  if (normals.rows() == 0) return;
+std::size_t keepOwnSide(const PointsView& points, const PointBuffer& normals, int p, std::span<Neighbor> neighbors) {
+  if (normals.rows() == 0) return neighbors.size();
   const Eigen::RowVector3d normal = normals.row(p);
   const auto isOpposed = [&](const Neighbor& q) { return normals.row(q.index).dot(normal) < opposed; };
   double height = 0, own_squares = 0, squares = 0;
@@ -30,10 +30,11 @@ void keepOwnSide(const PointsView& points, const PointBuffer& normals, int p, Bu
       ++kept;
     }
   }
-  if (removed == 0 || kept == 0) return;
+  if (removed == 0 || kept == 0) return neighbors.size();
   const double mean = height / removed, variance = (own_squares - mean * height) / removed;
-  if (mean * mean > other_height * other_height * std::max(squares / kept, variance))
-    std::erase_if(neighbors, isOpposed);
+  if (!(mean * mean > other_height * other_height * std::max(squares / kept, variance))) return neighbors.size();
+  const auto end = std::remove_if(neighbors.begin(), neighbors.end(), isOpposed);
+  return static_cast<std::size_t>(end - neighbors.begin());
 }
 
 }  // namespace tufted
