@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -14,6 +15,8 @@
 
 namespace tufted::io {
 namespace {
+
+constexpr std::size_t first_part = std::size_t{1} << 24;  // longer than any header
 
 std::size_t fileSize(const std::filesystem::path& path) {
   std::error_code error;
@@ -48,8 +51,13 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   struct stat status = {};
   if (file < 0) return;
   if (fstat(file, &status) == 0 && status.st_size > 0) {
-    void* const begin = mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, file, 0);
-    if (begin != MAP_FAILED) bytes_ = {static_cast<const char*>(begin), static_cast<std::size_t>(status.st_size)};
+    size_ = static_cast<std::size_t>(status.st_size);
+    for (const std::size_t count : {size_, std::min(size_, first_part)}) {
+      void* const begin = mmap(nullptr, count, PROT_READ, MAP_PRIVATE, file, 0);
+      if (begin == MAP_FAILED) continue;
+      bytes_ = {static_cast<const char*>(begin), count};
+      break;
+    }
   }
   ::close(file);
 }

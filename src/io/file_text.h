@@ -10,8 +10,9 @@ namespace tufted::io {
 /// @throws IoError if it is missing, empty, not a regular file (a directory, a pipe), or cannot be read
 std::string readBytes(const std::filesystem::path& path);
 
-/// The bytes of a regular file, which the system reads from disk where they are looked at. Empty if that is not
-/// possible.
+/// The bytes of a regular file, which the system reads from disk where they are looked at. Only the first 16 MiB, where
+/// headers are, if the process may not have as many addresses as the file has bytes (`ulimit -v`); none if the file
+/// cannot be opened.
 class MappedFile {
  public:
   explicit MappedFile(const std::filesystem::path& path);
@@ -20,9 +21,12 @@ class MappedFile {
   MappedFile& operator=(const MappedFile&) = delete;
 
   std::string_view bytes() const { return bytes_; }
+  /// Bytes of the file.
+  std::size_t size() const { return size_; }
 
  private:
   std::string_view bytes_;
+  std::size_t size_ = 0;
 };
 
 }  // namespace tufted::io

@@ -43,8 +43,8 @@ FileHead headOfPcd(const std::filesystem::path& path, std::string_view bytes) {
   return head;
 }
 
-FileHead headOfPly(const std::filesystem::path& path, std::string_view bytes) {
-  const io::PlyHeader header = io::parsePlyHeader(path, bytes);
+FileHead headOfPly(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
+  const io::PlyHeader header = io::parsePlyHeader(path, bytes, size);
   const auto element = [&](const char* name) {
     return std::find_if(header.elements.begin(), header.elements.end(),
                         [name](const io::PlyElement& each) { return each.name == name; });
@@ -60,8 +60,8 @@ FileHead headOfPly(const std::filesystem::path& path, std::string_view bytes) {
   return head;
 }
 
-FileHead headOfLas(const std::filesystem::path& path, std::string_view bytes) {
-  const io::LasHeader header = io::parseLasHeader(path, bytes);
+FileHead headOfLas(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
+  const io::LasHeader header = io::parseLasHeader(path, bytes, size);
   FileHead head = {.geometry = io::lasWithoutPoints(header), .points = header.points};
   head.geometry.width = static_cast<int>(io::checkedRows(path, header.points));
   return head;
@@ -78,10 +78,10 @@ std::optional<FileHead> readHead(const std::filesystem::path& path, ReadAs as) {
       head = headOfPcd(path, file.bytes());
       break;
     case FileFormat::ply:
-      head = headOfPly(path, file.bytes());
+      head = headOfPly(path, file.bytes(), file.size());
       break;
     case FileFormat::las:
-      head = headOfLas(path, file.bytes());
+      head = headOfLas(path, file.bytes(), file.size());
       break;
     default:
       return std::nullopt;

@@ -97,7 +97,7 @@ Geometry lasWithoutPoints(const LasHeader& header) {
 
 Geometry readLas(const std::filesystem::path& path, std::string_view bytes) {
   static_assert(std::endian::native == std::endian::little, "the values are taken as they lie in the file");
-  const LasHeader header = parseLasHeader(path, bytes);
+  const LasHeader header = parseLasHeader(path, bytes, bytes.size());
   const std::vector<LasItem> items = lasItems(header.point_format);
   Geometry geometry = withAllFields(header);
   geometry.width = static_cast<int>(checkedRows(path, header.points));

@@ -30,7 +30,8 @@ std::string fieldName(std::string_view text, std::size_t number) {
 
 class LasHeaderParser {
  public:
-  LasHeaderParser(const std::filesystem::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
+  LasHeaderParser(const std::filesystem::path& path, std::string_view bytes, std::size_t size)
+      : path_(path), bytes_(bytes), size_(size) {}
 
   LasHeader parse() {
     if (!bytes_.starts_with("LASF")) refuseByte(path_, 0, "does not begin with 'LASF'");
@@ -76,7 +77,7 @@ class LasHeaderParser {
     header_.body = at<std::uint32_t>(96);
     if (header_.body < header_bytes_ || header_.body > bytes_.size())
       refuseByte(path_, 96,
-                 "the points begin at byte " + std::to_string(header_.body) + " of " + std::to_string(bytes_.size()));
+                 "the points begin at byte " + std::to_string(header_.body) + " of " + std::to_string(size_));
   }
 
   void readPointFormat() {
@@ -98,7 +99,7 @@ class LasHeaderParser {
     std::uint64_t count = at<std::uint32_t>(107);
     std::size_t place = 107;
     if (header_.minor == 4 && at<std::uint64_t>(247) != 0) count = at<std::uint64_t>(place = 247);
-    const std::uint64_t rest = bytes_.size() - header_.body;
+    const std::uint64_t rest = size_ - header_.body;
     if (count > rest / header_.record_bytes)
       refuseByte(path_, place,
                  std::to_string(count) + " points of " + std::to_string(header_.record_bytes) +
@@ -108,7 +109,7 @@ class LasHeaderParser {
 
   /// Finds where the points end: waveforms (LAS 1.3) or extended variable length records (1.4) may follow.
   void findEnd() {
-    header_.end = bytes_.size();
+    header_.end = size_;
     const std::size_t points = header_.body + static_cast<std::size_t>(header_.points) * header_.record_bytes;
     const auto addPart = [&](std::uint64_t begin) {
       if (begin >= points && begin < header_.end) header_.end = static_cast<std::size_t>(begin);
@@ -220,6 +221,7 @@ class LasHeaderParser {
 
   const std::filesystem::path& path_;
   std::string_view bytes_;
+  std::size_t size_;
   std::size_t header_bytes_ = 0;
   std::uint32_t kept_records_ = 0;
   LasHeader header_;
@@ -232,8 +234,8 @@ std::size_t lasPointBytes(int point_format) {
   return bytes[point_format];
 }
 
-LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes) {
-  return LasHeaderParser(path, bytes).parse();
+LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
+  return LasHeaderParser(path, bytes, size).parse();
 }
 
 }  // namespace tufted::io

@@ -57,9 +57,10 @@ void put(std::string& bytes, std::size_t byte, T value) {
 std::size_t lasPointBytes(int point_format);
 
 /// Parses a header and checks that the file is long enough for the points it counts.
-/// @param bytes the whole file
+/// @param bytes the file as far as its points at least; records after the points are seen if they are there too
+/// @param size bytes of the whole file
 /// @throws IoError naming the byte
-LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes);
+LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes, std::size_t size);
 
 /// What a LAS file holds except its points: format, names of the fields, and Geometry::las_header.
 Geometry lasWithoutPoints(const LasHeader& header);

@@ -17,7 +17,7 @@ bool looksLikeNpy(std::string_view bytes) {
 }
 
 Geometry readNpy(const std::filesystem::path& path, std::string_view bytes) {
-  const NpyTable table = parseNpyTable(bytes, path);
+  const NpyTable table = parseNpyTable(bytes, bytes.size(), path);
   const bool is_named = !table.members.empty();
   if (!is_named && (table.columns < 3 || (table.columns > 3 && table.columns > table.rows() && table.rows() > 0)))
     refuseByte(path, npy_dictionary,
@@ -46,7 +46,7 @@ Geometry readNpy(const std::filesystem::path& path, std::string_view bytes) {
 
 Eigen::MatrixXd tufted::readArray(const std::filesystem::path& path) {
   const std::string bytes = io::readBytes(path);
-  const io::NpyTable array = io::parseNpyTable(bytes, path, true);
+  const io::NpyTable array = io::parseNpyTable(bytes, bytes.size(), path, true);
   if (array.dimensions > 2) io::refuse(path, "is not an array of N or of N x c values");
   if (array.end < bytes.size())
     io::refuseByte(path, array.end, std::to_string(bytes.size() - array.end) + " bytes behind the values of the array");

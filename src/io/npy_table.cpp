@@ -98,15 +98,15 @@ float fromHalf(std::uint16_t half) {
 
 class TableParser {
  public:
-  TableParser(std::string_view bytes, const std::filesystem::path& shown, bool is_flat)
-      : bytes_(bytes), shown_(shown), is_flat_(is_flat), layout_(parseNpyLayout(bytes, shown)) {}
+  TableParser(std::string_view bytes, std::size_t size, const std::filesystem::path& shown, bool is_flat)
+      : bytes_(bytes), size_(size), shown_(shown), is_flat_(is_flat), layout_(parseNpyLayout(bytes, shown)) {}
 
   NpyTable parse() {
     readType();
     table_.values = bytes_.data() + layout_.bytes;
     std::uint64_t values = 1;  // the product of the shape is at most 2^48
     for (const std::int64_t length : layout_.shape) values *= static_cast<std::uint64_t>(length);
-    const std::size_t given = bytes_.size() - layout_.bytes;
+    const std::size_t given = size_ - layout_.bytes;
     if (item_bytes_ > 0 && values > given / item_bytes_)
       refuse("has " + std::to_string(given) + " bytes of values, its shape " + shapeText() + " needs more",
              layout_.bytes);
@@ -205,6 +205,7 @@ class TableParser {
   static constexpr std::uint64_t most_item_bytes = 1 << 14;  // bytes of a structure: more than any point has
 
   std::string_view bytes_;
+  std::size_t size_;
   const std::filesystem::path& shown_;
   bool is_flat_;
   NpyLayout layout_;
@@ -241,8 +242,8 @@ Field NpyTable::field(std::int64_t c) const {
   return field;
 }
 
-NpyTable parseNpyTable(std::string_view bytes, const std::filesystem::path& shown, bool is_flat) {
-  return TableParser(bytes, shown, is_flat).parse();
+NpyTable parseNpyTable(std::string_view bytes, std::size_t size, const std::filesystem::path& shown, bool is_flat) {
+  return TableParser(bytes, size, shown, is_flat).parse();
 }
 
 }  // namespace tufted::io

@@ -40,9 +40,11 @@ struct NpyTable {
 };
 
 /// Parses a .npy file and checks that it is long enough. Bytes after `end` are left to the caller.
-/// @param bytes the whole file
+/// @param bytes at least the header; the values too if NpyTable::field() is called
+/// @param size bytes of the whole file
 /// @param is_flat whether an array of one dimension holds N items of one value
 /// @throws IoError for other types and shapes, saying how to convert them
-NpyTable parseNpyTable(std::string_view bytes, const std::filesystem::path& shown, bool is_flat = false);
+NpyTable parseNpyTable(std::string_view bytes, std::size_t size, const std::filesystem::path& shown,
+                       bool is_flat = false);
 
 }  // namespace tufted::io

@@ -129,7 +129,7 @@ void organize(const PlyHeader& header, std::int64_t points, Geometry& geometry) 
 }
 
 Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces, const Progress& progress) {
-  const PlyHeader header = parsePlyHeader(path, bytes);
+  const PlyHeader header = parsePlyHeader(path, bytes, bytes.size());
   const auto body = makePlyBody(path, bytes, header);
   Columns columns;
   PolygonSoup soup;

@@ -32,8 +32,8 @@ std::optional<FieldType> fieldType(std::string_view text) {
 
 class PlyHeaderParser {
  public:
-  PlyHeaderParser(const std::filesystem::path& path, std::string_view bytes)
-      : path_(path), all_(bytes.size()), scanner_(path, bytes) {}
+  PlyHeaderParser(const std::filesystem::path& path, std::string_view bytes, std::size_t size)
+      : path_(path), size_(size), scanner_(path, bytes) {}
 
   PlyHeader parse() {
     if (!scanner_.next() || lower(scanner_.tokens()[0]) != "ply") refuseLine(path_, 1, "does not begin with 'ply'");
@@ -127,14 +127,14 @@ class PlyHeaderParser {
       least += item * static_cast<std::uint64_t>(element.count);
     }
     if (header_.format == PlyHeader::Format::ascii && least > 0) --least;  // the last line may lack its end
-    const std::size_t rest = all_ - std::min(header_.body, all_);
+    const std::size_t rest = size_ - std::min(header_.body, size_);
     if (least > rest)
-      refuseByte(path_, all_,
+      refuseByte(path_, size_,
                  "ends there; the elements of the header need at least " + std::to_string(header_.body + least));
   }
 
   const std::filesystem::path& path_;
-  std::size_t all_;
+  std::size_t size_;
   LineScanner scanner_;
   bool has_format_ = false;
   PlyHeader header_;
@@ -148,8 +148,8 @@ const char* plyType(FieldType type) {
   return "double";
 }
 
-PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes) {
-  return PlyHeaderParser(path, bytes).parse();
+PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
+  return PlyHeaderParser(path, bytes, size).parse();
 }
 
 }  // namespace tufted::io

@@ -50,8 +50,9 @@ std::string formatName(const PlyHeader& header);
 void organize(const PlyHeader& header, std::int64_t points, Geometry& geometry);
 
 /// Parses a header and checks that the file is long enough for the elements it counts.
-/// @param bytes the whole file
+/// @param bytes at least the header
+/// @param size bytes of the whole file
 /// @throws IoError naming the line
-PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes);
+PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes, std::size_t size);
 
 }  // namespace tufted::io

@@ -23,7 +23,7 @@ std::shared_ptr<RecordFile> RecordFile::open(const std::filesystem::path& path, 
   file->file_.rdbuf()->pubsetbuf(nullptr, 0);  // every read sees the file as it is
   file->file_.open(path, std::ios::binary);
   if (!file->file_) return nullptr;
-  std::optional<RecordLayout> layout = recordLayout(path, mapped.bytes());
+  std::optional<RecordLayout> layout = recordLayout(path, mapped.bytes(), mapped.size());
   if (!layout) return nullptr;
   const std::size_t point_bytes = layout->record_bytes * static_cast<std::size_t>(layout->columns);
   const std::size_t most = std::clamp<std::size_t>(batch_bytes / point_bytes, 1, most_points);

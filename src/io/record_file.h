@@ -32,11 +32,12 @@ struct RecordLayout {
 };
 
 /// The layout of a LAS, binary PLY, binary PCD or NPY file.
-/// @param bytes the whole file
+/// @param bytes at least the header
+/// @param size bytes of the whole file
 /// @return nullopt for files of other formats or without points, compressed ones, PLY with lists or elements before the
 /// points, and grids of NPY in Fortran's order
 /// @throws IoError if the header is not valid, or counts more than the file holds
-std::optional<RecordLayout> recordLayout(const std::filesystem::path& path, std::string_view bytes);
+std::optional<RecordLayout> recordLayout(const std::filesystem::path& path, std::string_view bytes, std::size_t size);
 
 /// A binary file of points that is read in batches, as often as needed.
 class RecordFile {

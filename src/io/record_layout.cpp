@@ -16,8 +16,8 @@ namespace {
 
 using Layout = std::optional<RecordLayout>;
 
-Layout layoutOfLas(const std::filesystem::path& path, std::string_view bytes) {
-  const LasHeader header = parseLasHeader(path, bytes);
+Layout layoutOfLas(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
+  const LasHeader header = parseLasHeader(path, bytes, size);
   RecordLayout layout = {FileFormat::las, header.points, header.record_bytes, header.body, header.end};
   layout.header = [made = std::string(bytes.substr(0, header.body)), minor = header.minor](auto points) mutable {
     put(made, las_byte::old_count, static_cast<std::uint32_t>(points));
@@ -27,7 +27,7 @@ Layout layoutOfLas(const std::filesystem::path& path, std::string_view bytes) {
   return layout;
 }
 
-Layout layoutOfPcd(const std::filesystem::path& path, std::string_view bytes) {
+Layout layoutOfPcd(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
   PcdHeader header = parsePcdHeader(path, bytes);
   nameColumns(path, header.line, header.columns.fields);
   if (header.data != PcdHeader::Data::binary) return std::nullopt;
@@ -35,7 +35,7 @@ Layout layoutOfPcd(const std::filesystem::path& path, std::string_view bytes) {
   while (scanner.next() && lower(scanner.tokens()[0]) != "data") {
   }
   const auto data = static_cast<std::size_t>(scanner.tokens()[0].data() - bytes.data());
-  RecordLayout layout = {FileFormat::pcd, header.points, header.row_bytes, header.body, bytes.size()};
+  RecordLayout layout = {FileFormat::pcd, header.points, header.row_bytes, header.body, size};
   layout.is_organized = header.height > 1;
   layout.header = [start = std::string(bytes.substr(0, data))](auto points) {  // of repeated lines the last ones hold
     const std::string count = std::to_string(points);
@@ -44,13 +44,13 @@ Layout layoutOfPcd(const std::filesystem::path& path, std::string_view bytes) {
   return layout;
 }
 
-Layout layoutOfPly(const std::filesystem::path& path, std::string_view bytes) {
-  const PlyHeader header = parsePlyHeader(path, bytes);
+Layout layoutOfPly(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
+  const PlyHeader header = parsePlyHeader(path, bytes, size);
   if (header.format == PlyHeader::Format::ascii || header.elements.empty() || header.elements[0].name != "vertex")
     return std::nullopt;
   const PlyElement& vertices = header.elements[0];
   columnsOf(path, header.line, vertices);
-  RecordLayout layout = {FileFormat::ply, vertices.count, 0, header.body, bytes.size()};
+  RecordLayout layout = {FileFormat::ply, vertices.count, 0, header.body, size};
   std::string properties;
   for (const PlyProperty& property : vertices.properties) {
     if (property.is_list) return std::nullopt;
@@ -72,14 +72,14 @@ Layout layoutOfPly(const std::filesystem::path& path, std::string_view bytes) {
   return layout;
 }
 
-Layout layoutOfNpy(const std::filesystem::path& path, std::string_view bytes) {
+Layout layoutOfNpy(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
   constexpr std::int64_t most_columns = 100;  // readNpy() refuses fewer points than values; a batch has 1,300 or more
-  const NpyTable table = parseNpyTable(bytes, path);
+  const NpyTable table = parseNpyTable(bytes, size, path);
   const bool is_named = !table.members.empty();
   if (!is_named && (table.columns < 3 || table.columns > most_columns)) return std::nullopt;
   if (table.height > 1 && table.row_stride != table.item_stride * static_cast<std::size_t>(table.width))
     return std::nullopt;
-  RecordLayout layout = {FileFormat::npy, table.rows(), table.item_stride, npyHeaderBytes(bytes, path), bytes.size()};
+  RecordLayout layout = {FileFormat::npy, table.rows(), table.item_stride, npyHeaderBytes(bytes, path), size};
   if (!is_named && table.column_stride >= table.item_stride) {
     layout.record_bytes = table.value.size;
     layout.columns = table.columns;
@@ -98,18 +98,18 @@ Layout layoutOfNpy(const std::filesystem::path& path, std::string_view bytes) {
 
 }  // namespace
 
-Layout recordLayout(const std::filesystem::path& path, std::string_view bytes) {
+Layout recordLayout(const std::filesystem::path& path, std::string_view bytes, std::size_t size) {
   const FileFormat format = formatOf(path, bytes);
   Layout layout;
-  if (format == FileFormat::las) layout = layoutOfLas(path, bytes);
-  if (format == FileFormat::pcd) layout = layoutOfPcd(path, bytes);
-  if (format == FileFormat::ply) layout = layoutOfPly(path, bytes);
-  if (format == FileFormat::npy) layout = layoutOfNpy(path, bytes);
+  if (format == FileFormat::las) layout = layoutOfLas(path, bytes, size);
+  if (format == FileFormat::pcd) layout = layoutOfPcd(path, bytes, size);
+  if (format == FileFormat::ply) layout = layoutOfPly(path, bytes, size);
+  if (format == FileFormat::npy) layout = layoutOfNpy(path, bytes, size);
   if (!layout || layout->points == 0) return std::nullopt;
   const std::size_t point_bytes = layout->record_bytes * static_cast<std::size_t>(layout->columns);
   if (static_cast<std::size_t>(layout->points) >
-      (bytes.size() - std::min(layout->begin, bytes.size())) / point_bytes)  // other formats have checked that
-    refuseByte(path, bytes.size(),
+      (size - std::min(layout->begin, size)) / point_bytes)  // other formats have checked that
+    refuseByte(path, size,
                "ends there, too short for " + std::to_string(layout->points) + " points of " +
                    std::to_string(point_bytes) + " bytes");
   return layout;

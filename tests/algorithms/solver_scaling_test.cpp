@@ -1,9 +1,9 @@
 // Multigrid on clouds of growing size.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <string>
 
+#include "../support/resource_limit.h"
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
@@ -29,17 +29,13 @@ TEST(Solver, FailsTypedWhereMemoryDoesNotSuffice) {
   const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(4000).points);
   const Solver solver = Solver::laplacian(laplacian, {.threads = 1});
   const Eigen::MatrixXd b = Eigen::MatrixXd::Zero(4000, 20000);  // 640 MB, and x would be as much
-  rlimit before;
-  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
-  const rlimit tight = {800'000'000, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_AS, &tight), 0);
   std::string said = "solved";
   try {
+    const ResourceLimit tight(RLIMIT_AS, addressBytes());
     solver.solve(b);
   } catch (const SolverFailure& error) {
     said = error.what();
   }
-  setrlimit(RLIMIT_AS, &before);
   EXPECT_EQ(said.find("Solver::solve: memory does not suffice to solve for 20000 right sides"), 0) << said;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../io/file_size_limit.h"
+#include "../support/resource_limit.h"
 #include "../io/temporary_dir.h"
 #include "command.h"
 #include "samples.h"

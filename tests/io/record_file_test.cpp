@@ -7,9 +7,11 @@
 #include <map>
 
 #include "../support/refusal.h"
+#include "../support/resource_limit.h"
 #include "las_file.h"
 #include "temporary_dir.h"
 #include "tufted/errors.h"
+#include "tufted/io/head.h"
 #include "tufted/io/tiles.h"
 
 namespace record_file_test {
@@ -164,6 +166,28 @@ TEST(RecordFile, BatchesAreTheWhole) {
       EXPECT_EQ(values[f],
                 std::string(reinterpret_cast<const char*>(whole.fields[f].bytes.data()), whole.fields[f].bytes.size()))
           << name << ' ' << whole.fields[f].name;
+  }
+}
+
+TEST(RecordFile, MayBeLargerThanTheAddressesThatAreLeft) {
+  const TemporaryDir dir;
+  for (const auto& [name, bytes] : files) {
+    const auto path = dir.write(name, bytes);
+    const Points expected = tufted::read(path, tufted::ReadAs::cloud).points;
+    const auto head = tufted::readHead(path);
+    std::filesystem::resize_file(path, std::size_t{1} << 32);  // zeros that take no room on disk
+    const ResourceLimit limit(RLIMIT_AS, addressBytes() + (std::size_t{1} << 28));
+    const auto file = RecordFile::open(path, small_batch);
+    ASSERT_NE(file, nullptr) << name;
+    Points points(0, 3);
+    file->forBatches([&](const Geometry& batch, std::int64_t) {
+      points.conservativeResize(points.rows() + batch.points.rows(), 3);
+      points.bottomRows(batch.points.rows()) = batch.points;
+    });
+    EXPECT_TRUE(areSame(points, expected)) << name;
+    const auto head_of_large = tufted::readHead(path);
+    ASSERT_EQ(head_of_large.has_value(), head.has_value()) << name;
+    if (head) EXPECT_EQ(head_of_large->points, head->points) << name;
   }
 }
 

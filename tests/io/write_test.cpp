@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "../support/refusal.h"
+#include "../support/resource_limit.h"
 #include "field_values.h"
-#include "file_size_limit.h"
 #include "sample_laplacian.h"
 #include "temporary_dir.h"
 #include "tufted/errors.h"
