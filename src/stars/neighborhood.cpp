@@ -81,13 +81,15 @@ void NeighborhoodFinder::find(int first, int count, NeighborhoodScratch& scratch
       source_.keepOwnSide(points_, first + i, neighborhood.neighbors);
       continue;
     }
-    neighborhood.grown = neighborhood.split = neighborhood.restored = neighborhood.isolated = false;
+    neighborhood.grown = neighborhood.split = neighborhood.wrapped = neighborhood.restored = neighborhood.isolated =
+        false;
     take(source_.k, source_.nearest(points_, first + i, source_.k, neighborhood.neighbors), neighborhood);
   }
 }
 
 void NeighborhoodFinder::start(std::span<const Neighbor> neighbors, Neighborhood& neighborhood) const {
-  neighborhood.grown = neighborhood.split = neighborhood.restored = neighborhood.isolated = false;
+  neighborhood.grown = neighborhood.split = neighborhood.wrapped = neighborhood.restored = neighborhood.isolated =
+      false;
   neighborhood.neighbors.assign(neighbors.begin(), neighbors.end());
   take(static_cast<int>(neighbors.size()), neighbors.empty() ? 0 : std::sqrt(neighbors.back().squared_distance),
        neighborhood);
@@ -129,6 +131,7 @@ void NeighborhoodFinder::refine(int p, Neighborhood& neighborhood, OffsetBuffer&
     neighborhood.grown = true;
   }
   neighborhood.fit_radius = neighborhood.radius;
+  neighborhood.thick = areThick(neighborhood.axes);
   if (!splitsSheets()) return;
   if (neighborhood.grown) {  // the nearest few may have changed
     std::array<PrincipalAxes, nested_sets> axes;
@@ -141,7 +144,9 @@ void NeighborhoodFinder::refine(int p, Neighborhood& neighborhood, OffsetBuffer&
 bool NeighborhoodFinder::grow(int p, int most, Neighborhood& neighborhood, OffsetBuffer& offsets,
                               NeighborhoodScratch& scratch) const {
   if (!query(p, std::min(2 * neighborhood.k, most), neighborhood, offsets, scratch)) return false;
-  if (splitsSheets() && (neighborhood.split || (!neighborhood.restored && !neighborhood.grown)))
+  if (neighborhood.wrapped)
+    keepNearSide(neighborhood.axes.normal, neighborhood, offsets, scratch.sheets);
+  else if (splitsSheets() && (neighborhood.split || (!neighborhood.restored && !neighborhood.grown)))
     keepSheet(neighborhood.axes.normal, neighborhood, offsets, scratch.sheets);
   return true;
 }

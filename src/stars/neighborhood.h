@@ -30,6 +30,8 @@ struct Neighborhood {
   bool grown = false;     ///< whether more than the caller's k neighbours were taken for the plane
   bool split = false;     ///< whether neighbours on another sheet were removed
   bool restored = false;  ///< whether all were kept because the rest was no plane
+  bool thick = false;     ///< whether all neighbours were as thick as wide
+  bool wrapped = false;   ///< whether steep neighbours were left out, as the neighbourhood reaches around a thin part
   bool isolated = false;  ///< whether nearly all neighbours belong to other sheets
 };
 
@@ -65,8 +67,8 @@ class NeighborhoodFinder {
   /// @param offsets of the neighbours, before and after
   void refine(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
 
-  /// Doubles the number of neighbours, up to `most`, without those on other sheets; the plane does not change. Returns
-  /// false if there are no more neighbours.
+  /// Doubles the number of neighbours, up to `most`, without those on other sheets and sides; the plane does not
+  /// change. Returns false if there are no more neighbours.
   /// @param offsets of the neighbours, before and after
   bool grow(int p, int most, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
 

@@ -44,8 +44,12 @@ inline bool isWhole(const HeightRange& range) {
 /// radius. Returns whether any were removed.
 bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch);
 
+/// Leaves out the neighbours that lie steeply above or below the plane at p, as those around the bend of a cable do.
+void keepNearSide(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
+                  SheetScratch& scratch);
+
 /// Removes neighbours on other sheets, surfaces that pass nearby (section 4 of docs/algorithm.md), and fits the plane
-/// to the rest; `split`, `isolated` or `restored` record the outcome. If the rest is no plane, all are kept.
+/// to the rest; `split`, `wrapped`, `isolated` or `restored` record the outcome. If the rest is no plane, all are kept.
 /// @param neighborhood has planes fitted to all of its neighbours and to the nearest few
 /// @param offsets of the neighbours, before and after
 void splitSheets(Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch);

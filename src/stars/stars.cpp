@@ -25,9 +25,6 @@ constexpr std::size_t usual_degree = 7;
 /// How often the neighbours of an open star are doubled: points on rings around a pole see only their own ring among 60
 /// (error at anisotropy 20: 1.9e-2 to 7.9e-3).
 constexpr int most_doublings = 2;
-/// A neighbourhood is thick if its smallest variance exceeds this share of the second: 84 % of a cable 8 spacings
-/// around (its area is 0.52 of the true one), 56 % at 9 (0.76), 7 % at 11 (1.08), 78 % of a volume.
-constexpr double thick_share = 0.5;
 
 /// Memory, counts and times of one worker.
 struct WorkerState {
@@ -85,8 +82,7 @@ class StarBuilder {
     state.grown_neighborhoods += neighborhood.grown ? 1 : 0;
     state.split_neighborhoods += neighborhood.split ? 1 : 0;
     state.isolated += neighborhood.isolated ? 1 : 0;
-    const Eigen::Vector3d& variance = neighborhood.axes.variance;
-    state.thick += variance[0] > thick_share * variance[1] && !liesOnOneLine(neighborhood.axes) ? 1 : 0;
+    state.thick += neighborhood.thick && !neighborhood.split ? 1 : 0;
     if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0))
       neighborhood.axes.normal = source_.normals.row(p);
     support_.normals.row(p) = neighborhood.axes.normal;

@@ -40,6 +40,10 @@ PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Nei
 /// Whether points lie on one line, as on one scan line: the second variance is below a tenth of the largest.
 bool liesOnOneLine(const PrincipalAxes& axes);
 
+/// Whether points are as thick as wide, as in volumes and on cables that they reach around: the smallest variance
+/// exceeds half of the second.
+bool areThick(const PrincipalAxes& axes);
+
 /// A unit vector perpendicular to the unit vector `normal`, a function of `normal` only.
 Eigen::Vector3d tangentOf(const Eigen::Vector3d& normal);
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 #include "shapes/random.h"
 #include "shapes/shapes.h"
@@ -65,6 +66,34 @@ TEST(Line, HasAtMostFourTimesTheAreaOfItsCover) {
               << n << " points, scatter " << scatter << ", length " << length << ", seed " << seed;
         }
       }
+    }
+  }
+}
+
+/// Rows of points around a tube, each turned by half a step: triangles with equal sides where the tube is straight.
+/// @param bend radius of the circle that its middle line follows
+Points tube(int around, int rows, double bend) {
+  Points points(around * rows, 3);
+  const double step = 2 * std::numbers::pi / around, between = std::sqrt(0.75) * 2 * std::sin(step / 2);
+  for (int i = 0; i < points.rows(); ++i) {
+    const int row = i / around;
+    const double turn = step * (i % around + row % 2 / 2.), along = row * between / bend;
+    const double x = bend + std::cos(turn);
+    points.row(i) << x * std::cos(along), x * std::sin(along), std::sin(turn);
+  }
+  return points;
+}
+
+TEST(Tube, OfSevenPointsAroundAndMoreHasItsAreaThoughNeighbourhoodsReachAround) {
+  constexpr int rows = 60, rim = 12;  // rows near the ends, which may be closed
+  for (int around = 7; around <= 16; ++around) {
+    for (const double bend : {1e4, 60.}) {
+      const double side = 2 * std::sin(std::numbers::pi / around);
+      const Laplacian laplacian = pointCloudLaplacian(turned(tube(around, rows, bend)));
+      const Eigen::VectorXd inner = laplacian.M.segment(rim * around, (rows - 2 * rim) * around);
+      EXPECT_NEAR(inner.mean(), std::sqrt(0.75) * side * side, 0.05 * inner.mean())
+          << around << " around, bend " << bend;
+      EXPECT_EQ(laplacian.report.components, 1) << around;
     }
   }
 }
