@@ -14,6 +14,7 @@
 #include "base/require.h"
 #include "base/stage_clock.h"
 #include "base/symmetric_eigen.h"
+#include "neighbors/morton.h"
 #include "operators/rings.h"
 #include "stars/offsets.h"
 #include "stars/quadratic_fit.h"
@@ -175,31 +176,45 @@ void setCurvatures(int p, const Window& window, Curvatures& result) {
   result.second.row(p) = fitted_normal.cross(first);
 }
 
+/// The active points along a Morton curve. Windows of neighbours on it have points in common, which are in the cache.
+std::vector<int> visitingOrder(const Laplacian& laplacian, const Workers& workers) {
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  const Buffer<int> distinct = rankPoints(laplacian.positions, status, representative, workers).input_index;
+  std::vector<int> order(distinct.begin(), distinct.end());
+  // Active vertices of a mesh may coincide.
+  for (int p = 0; p < std::ssize(status); ++p)
+    if (status[p] != PointStatus::active) order.push_back(p);
+  std::erase_if(order, [&](int p) { return laplacian.status[p] != PointStatus::active; });
+  return order;
+}
+
 Curvatures fitCurvatures(const Laplacian& laplacian, const Frames& frames, int given_rings, const Workers& workers) {
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
+  const std::vector<int> order = visitingOrder(laplacian, workers);
   Curvatures result{VectorXd::Zero(n),  VectorXd::Zero(n),  Eigen::MatrixX2d::Zero(n, 2),
                     Points::Zero(n, 3), Points::Zero(n, 3), {}};
   std::vector<int> rings(n, 0);
   std::vector<std::optional<Fitter>> fitters(workers.count());
-  workers.forBlocks("curvature", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
-    std::optional<Fitter>& fitter = fitters[worker];
-    if (!fitter) fitter.emplace(laplacian, frames, given_rings);
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      if (laplacian.status[p] != PointStatus::active) continue;
-      const std::optional<Window> window = fitter->fit(p);
-      if (!window) continue;
-      setCurvatures(p, *window, result);
-      rings[p] = window->rings;
-    }
-  });
-  std::int64_t sum = 0, active = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    sum += rings[i];
-    if (laplacian.status[i] != PointStatus::active) continue;
-    ++active;
-    if (rings[i] == 0) ++result.report.undetermined;
+  workers.forBlocks("curvature", std::ssize(order), costly_block,
+                    [&](std::int64_t begin, std::int64_t end, int worker) {
+                      std::optional<Fitter>& fitter = fitters[worker];
+                      if (!fitter) fitter.emplace(laplacian, frames, given_rings);
+                      for (std::int64_t i = begin; i < end; ++i) {
+                        const int p = order[i];
+                        const std::optional<Window> window = fitter->fit(p);
+                        if (!window) continue;
+                        setCurvatures(p, *window, result);
+                        rings[p] = window->rings;
+                      }
+                    });
+  std::int64_t sum = 0;
+  for (const int p : order) {
+    sum += rings[p];
+    if (rings[p] == 0) ++result.report.undetermined;
   }
-  result.report.mean_rings = static_cast<double>(sum) / static_cast<double>(std::max<std::int64_t>(active, 1));
+  result.report.mean_rings =
+      static_cast<double>(sum) / static_cast<double>(std::max<std::int64_t>(std::ssize(order), 1));
   return result;
 }
 

@@ -192,6 +192,21 @@ TEST(Curvature, OfMeshes) {
   EXPECT_EQ(by_laplacian.principal.rows(), 0);
 }
 
+TEST(Curvature, OfMeshesAtOnePlaceIsThatOfEach) {
+  const shapes::Mesh mesh = shapes::icosphere(3);
+  const Eigen::Index n = mesh.points.rows(), faces = mesh.triangles.rows();
+  Points points(2 * n, 3);
+  points << mesh.points, mesh.points;
+  Triangles triangles(2 * faces, 3);
+  triangles << mesh.triangles, mesh.triangles.array() + static_cast<int>(n);
+  const auto meanOf = [](const Points& places, const Triangles& corners) {
+    return curvatures(meshLaplacian(places, corners), meshFrames(places, corners)).mean;
+  };
+  const VectorXd mean = meanOf(points, triangles);
+  EXPECT_EQ(mean.head(n), meanOf(mesh.points, mesh.triangles));
+  EXPECT_EQ(mean.tail(n), mean.head(n));
+}
+
 TEST(Curvature, OfAPlaneIsZero) {
   const Points plane = shapes::square(1000).points;
   const Curvatures found = curvatures(pointCloudLaplacian(plane));

@@ -205,11 +205,13 @@ std::pair<std::vector<int>, std::string> percentagesIn(const std::string& shown)
 
 TEST_F(ConsoleOutput, OneBarShowsTheShareOfTheWholeCommand) {
   const std::string cloud = dir_.write("sphere.xyz", sphere(3000)), mesh = dir_.write("mesh.off", tetrahedron);
+  const std::string large = dir_.write("large.xyz", sphere(60000));  // for more than a second of tiles
   for (const std::vector<std::string>& words : {std::vector<std::string>{"laplacian", cloud},
                                                 {"spectrum", cloud, "--count", "5"},
                                                 {"distance", cloud, "--source", "0"},
                                                 {"distance", cloud, "--source", "0", "--method", "heat"},
                                                 {"green", cloud, "--source", "0"},
+                                                {"laplacian", large, "--keep-noise", "--memory", "270M"},
                                                 {"distance", mesh, "--source", "0"}}) {
     std::vector<std::string> command = words;
     command.insert(command.end(), {"--out", in("out"), "--threads", "1"});
