@@ -17,15 +17,15 @@ using Eigen::VectorXd;
 
 /// Number of right sides that share one pass over the factor: a solve takes 6 ms for each of them, and 14 ms for a
 /// single one.
-constexpr Index block_size = 8;
+constexpr Index lanczos_block = 8;
 /// Steps in which a random block is searched for missed eigenvalues if the factor cannot count them.
 constexpr int search_steps = 8;
 /// Steps in which a random block is searched for missed eigenvalues if the count says that one is missing.
 constexpr int longest_search = 40;
 /// A column is rounding if less of it than this part of the largest eigenvalue remains after orthogonalisation.
-constexpr double least_part = 1e-15;
+constexpr double least_remainder = 1e-15;
 /// Products with A are uncertain by this part of the largest eigenvalue.
-constexpr double rounding = 1e-13;
+constexpr double product_rounding = 1e-13;
 /// An eigenvalue this many times the next one converges at once, and its rounding spoils the digits of the others.
 constexpr double dominance = 1e4;
 /// If no eigenvalue changes by more than this part of itself, a random block has shown nothing new.
@@ -43,10 +43,10 @@ class BlockLanczos {
   BlockLanczos(const LanczosProblem& problem, const LanczosOptions& options, const Workers& workers)
       : problem_(problem), options_(options), workers_(workers), quiet_(workers.count(), silent_) {
     // Room for 1.5 times the wanted vectors, or for six steps beyond them if that is more.
-    const Index room = problem.wanted + std::max<Index>(problem.wanted / 2, 6 * block_size);
-    most_ = std::min(problem.dimension, (room + block_size - 1) / block_size * block_size);
-    basis_.resize(problem.mass.size(), most_ + block_size);
-    T_ = MatrixXd::Zero(most_ + block_size, most_ + block_size);
+    const Index room = problem.wanted + std::max<Index>(problem.wanted / 2, 6 * lanczos_block);
+    most_ = std::min(problem.dimension, (room + lanczos_block - 1) / lanczos_block * lanczos_block);
+    basis_.resize(problem.mass.size(), most_ + lanczos_block);
+    T_ = MatrixXd::Zero(most_ + lanczos_block, most_ + lanczos_block);
   }
 
   LanczosResult run() {
@@ -88,7 +88,7 @@ class BlockLanczos {
       const double theta = result.values[i];
       const VectorXd rest = result.images.col(i) - theta * result.vectors.col(i);
       result.residuals[i] = std::sqrt(rest.cwiseProduct(problem_.mass).dot(rest)) / theta;
-      if (!(theta > 0 && result.residuals[i] <= options_.tolerance + rounding * result.values[0] / theta))
+      if (!(theta > 0 && result.residuals[i] <= options_.tolerance + product_rounding * result.values[0] / theta))
         result.converged = false;
     }
   }
@@ -126,9 +126,9 @@ class BlockLanczos {
     subtractProduct(image, basis_.leftCols(known), products, quiet_);
     size_ = known;
     const MatrixXd rest = image;
-    const Index room = std::min<Index>(block_size, problem_.dimension - size_);
+    const Index room = std::min<Index>(lanczos_block, problem_.dimension - size_);
     scale_ = std::max(scale_, products.bottomRows(products.cols()).diagonal().maxCoeff());
-    fresh_ = orthonormalize(image, room, least_part * scale_);
+    fresh_ = orthonormalize(image, room, least_remainder * scale_);
     if (fresh_ == 0) return addRandom();
     coupling_ = innerProducts(fresh(), problem_.mass, rest, quiet_);
     return true;
@@ -136,7 +136,7 @@ class BlockLanczos {
 
   /// Adds a random block to the basis. False if the basis spans the whole space.
   bool addRandom() {
-    const Index room = std::min<Index>(block_size, problem_.dimension - size_);
+    const Index room = std::min<Index>(lanczos_block, problem_.dimension - size_);
     fresh_ = 0;
     coupling_.resize(0, 0);
     if (room == 0) return false;
@@ -148,7 +148,7 @@ class BlockLanczos {
       }
     }
     problem_.deflate(block);
-    const double least = least_part * std::sqrt(innerProductsOfColumns(block).maxCoeff());
+    const double least = least_remainder * std::sqrt(innerProductsOfColumns(block).maxCoeff());
     fresh_ = orthonormalize(block, room, least);
     return fresh_ > 0;
   }
@@ -232,7 +232,7 @@ class BlockLanczos {
     if (leading == locked_) return false;
     const VectorXd rest = residuals(leading);
     for (Index i = locked_; i < leading; ++i)
-      if (!(rest[i] <= rounding * values_[i])) return false;
+      if (!(rest[i] <= product_rounding * values_[i])) return false;
     restart(leading);
     locked_ = leading;
     scale_ = 0;
@@ -243,7 +243,7 @@ class BlockLanczos {
   /// |A x - theta x| of the first `count` pairs: the coupling times the last rows of their vectors, or the size of
   /// rounding if there is no coupling.
   VectorXd residuals(Index count) const {
-    if (coupling_.cols() == 0) return VectorXd::Constant(count, least_part * scale_);
+    if (coupling_.cols() == 0) return VectorXd::Constant(count, least_remainder * scale_);
     return (coupling_ * vectors_.bottomRows(coupling_.cols()).leftCols(count)).colwise().norm();
   }
 
@@ -269,7 +269,7 @@ class BlockLanczos {
     };
     const Index usual = wanted + (most_ - wanted) / 3;
     Index best = usual;
-    for (Index keep = usual + 1; keep <= most_ - block_size && keep < size_ && values_[keep] > 0; ++keep)
+    for (Index keep = usual + 1; keep <= most_ - lanczos_block && keep < size_ && values_[keep] > 0; ++keep)
       if (worth(keep) > worth(best)) best = keep;
     return worth(best) > clearly_faster * worth(usual) ? best : usual;
   }

@@ -4,7 +4,7 @@ namespace tufted {
 namespace {
 
 /// Maximum number of iterations of k-means; it usually takes ten.
-constexpr int most_iterations = 100;
+constexpr int lloyd_iterations = 100;
 
 /// The first centres, see clusters(): `count` x d.
 Eigen::MatrixXd farthestRows(const Eigen::MatrixXd& rows, const VectorXd& weights, int count) {
@@ -29,7 +29,7 @@ std::vector<int> clusters(const Eigen::MatrixXd& rows, VectorXd weights, int cou
   if (!(weights.sum() > 0)) weights.setOnes();
   weights /= weights.maxCoeff();
   Eigen::MatrixXd centres = farthestRows(rows, weights, count);
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < lloyd_iterations; ++iteration) {
     bool changed = false;
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
       Eigen::Index nearest = 0;

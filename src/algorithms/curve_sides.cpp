@@ -17,7 +17,7 @@ using Eigen::RowVector3d;
 constexpr double shared_end = 1e-9;
 
 /// The nearest source to a point next to a curve.
-struct Nearest {
+struct NearestSource {
   double distance = std::numeric_limits<double>::infinity();
   double height = 0;  ///< over the line through the nearest segment, positive on its left
 };
@@ -29,9 +29,9 @@ std::set<int> cornersOf(const CurvePlace& place) {
   return corners;
 }
 
-class Sides {
+class CurveSides {
  public:
-  Sides(const SideGeometry& surface, VectorXd& distance)
+  CurveSides(const SideGeometry& surface, VectorXd& distance)
       : surface_(surface), distance_(distance), nearest_(static_cast<std::size_t>(distance.size())) {}
 
   void add(const CurveSegment& segment) {
@@ -103,7 +103,7 @@ class Sides {
     const double foot = std::clamp(offset.dot(segment.along), 0., segment.length);
     const double distance = (offset - foot * segment.along).stableNorm();
     const double height = normal.cross(segment.along).dot(offset);
-    Nearest& best = nearest_[i];
+    NearestSource& best = nearest_[i];
     const double rounding = shared_end * segment.length;
     if (distance < best.distance - rounding ||
         (distance < best.distance + rounding && std::abs(height) > std::abs(best.height)))
@@ -124,7 +124,7 @@ class Sides {
 
   const SideGeometry& surface_;
   VectorXd& distance_;
-  std::vector<Nearest> nearest_;
+  std::vector<NearestSource> nearest_;
 };
 
 /// The weights of a place by corners of a triangle; empty if it does not lie in the triangle.
@@ -158,7 +158,7 @@ std::optional<SurfacePoint> middleInTriangle(const CurveSegment& segment, const 
 
 void signBySide(const SideGeometry& surface, const std::vector<CurveSegment>& segments,
                 const std::vector<CurvePlace>& places, VectorXd& distance) {
-  Sides sides(surface, distance);
+  CurveSides sides(surface, distance);
   for (const CurveSegment& segment : segments) sides.add(segment);
   for (const CurvePlace& place : places) sides.add(place);
   sides.finish();

@@ -10,7 +10,7 @@
 #include "algorithms/charts.h"
 #include "algorithms/check_positions.h"
 #include "base/disjoint_sets.h"
-#include "tufted/errors.h"
+#include "base/require.h"
 #include "tufted/parameterization.h"
 
 namespace tufted {
@@ -18,13 +18,9 @@ namespace {
 
 constexpr const char* cut_parameterization_name = "parameterize";
 
-[[noreturn]] void refuse(const std::string& why) {
-  throw InvalidInput(std::string(cut_parameterization_name) + ": " + why);
-}
+using CutEdge = std::pair<int, int>;  ///< of two points, the smaller first
 
-using Edge = std::pair<int, int>;  ///< of two points, the smaller first
-
-Edge edgeOf(int a, int b) {
+CutEdge edgeOf(int a, int b) {
   return std::minmax({a, b});
 }
 
@@ -37,14 +33,16 @@ struct CutSurface {
 };
 
 /// The edges of cuts, between representatives.
-std::set<Edge> edgesOf(const Laplacian& laplacian, const std::vector<std::vector<int>>& cuts) {
+std::set<CutEdge> edgesOf(const Laplacian& laplacian, const std::vector<std::vector<int>>& cuts) {
   const int n = static_cast<int>(laplacian.status.size());
-  std::set<Edge> edges;
+  std::set<CutEdge> edges;
   for (const std::vector<int>& cut : cuts) {
-    if (cut.size() < 2) refuse("a cut has " + std::to_string(cut.size()) + " points, must have at least 2");
+    if (cut.size() < 2)
+      refuse(cut_parameterization_name, "a cut has " + std::to_string(cut.size()) + " points, must have at least 2");
     for (const int point : cut)
       if (point < 0 || point >= n)
-        refuse("a cut has " + std::to_string(point) + ", must lie in [0, " + std::to_string(n) + ")");
+        refuse(cut_parameterization_name,
+               "a cut has " + std::to_string(point) + ", must lie in [0, " + std::to_string(n) + ")");
     for (std::size_t k = 1; k < cut.size(); ++k)
       edges.insert(edgeOf(laplacian.representative[cut[k - 1]], laplacian.representative[cut[k]]));
   }
@@ -52,17 +50,17 @@ std::set<Edge> edgesOf(const Laplacian& laplacian, const std::vector<std::vector
 }
 
 /// Joins the corners of triangles on both sides of all edges but those of cuts; each set of corners is a point.
-CutSurface cutOpen(const Laplacian& laplacian, const TrianglesRef& triangles, const std::set<Edge>& cuts) {
+CutSurface cutOpen(const Laplacian& laplacian, const TrianglesRef& triangles, const std::set<CutEdge>& cuts) {
   CutSurface cut;
   const auto n = std::ssize(laplacian.status);
   cut.corners.resize(triangles.rows(), 3);
-  std::vector<std::tuple<Edge, int>> sides;  // with their numbers 3 t + s
+  std::vector<std::tuple<CutEdge, int>> sides;  // with their numbers 3 t + s
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     for (int s = 0; s < 3; ++s) {
       const int corner = triangles(t, s);
       if (corner < 0 || corner >= n)
-        refuse("triangle " + std::to_string(t) + " has the corner " + std::to_string(corner) + ", must lie in [0, " +
-               std::to_string(n) + ")");
+        refuse(cut_parameterization_name, "triangle " + std::to_string(t) + " has the corner " +
+                                              std::to_string(corner) + ", must lie in [0, " + std::to_string(n) + ")");
       cut.corners(t, s) = laplacian.representative[corner];
     }
     const Eigen::RowVector3i at = cut.corners.row(t);
@@ -74,14 +72,14 @@ CutSurface cutOpen(const Laplacian& laplacian, const TrianglesRef& triangles, co
       sides.emplace_back(edgeOf(cut.corners(t, s), cut.corners(t, (s + 1) % 3)), static_cast<int>(3 * t + s));
   }
   std::sort(sides.begin(), sides.end());
-  const auto hasEdge = [&](const Edge& edge) {
+  const auto hasEdge = [&](const CutEdge& edge) {
     const auto at = std::lower_bound(sides.begin(), sides.end(), std::tuple(edge, 0));
     return at != sides.end() && std::get<0>(*at) == edge;
   };
   for (const auto& [a, b] : cuts)
     if (a == b || !hasEdge({a, b}))
-      refuse("a cut goes from point " + std::to_string(a) + " to " + std::to_string(b) +
-             ", which no edge of the triangles joins");
+      refuse(cut_parameterization_name, "a cut goes from point " + std::to_string(a) + " to " + std::to_string(b) +
+                                            ", which no edge of the triangles joins");
   DisjointSets corners(3 * triangles.rows());
   const auto cornerAt = [&](int side, int point) {  // of the two ends of a side
     const int next = side - side % 3 + (side + 1) % 3;
@@ -130,7 +128,7 @@ void addPoints(const Laplacian& laplacian, CutSurface& cut) {
   }
 }
 
-void requireDisks(const CutSurface& cut, const std::set<Edge>& cuts) {
+void requireDisks(const CutSurface& cut, const std::set<CutEdge>& cuts) {
   std::set<int> ends;
   for (const auto& [a, b] : cuts) ends.insert({a, b});
   for (const Chart& chart : findCharts(cut_parameterization_name, cut.points, cut.triangles)) {
@@ -139,9 +137,10 @@ void requireDisks(const CutSurface& cut, const std::set<Edge>& cuts) {
     });
     if (!is_touched || !chart.is_manifold || !chart.is_orientable) continue;  // parameterize() refuses the latter
     if (chart.rims.size() == 1 && chart.eulerCharacteristic() == 1) continue;
-    refuse("a part of " + std::to_string(chart.triangles.size()) + " triangles with a cut has " +
-           std::to_string(chart.rims.size()) + " rims and Euler characteristic " +
-           std::to_string(chart.eulerCharacteristic()) + ", must be a disk, with 1 and 1");
+    refuse(cut_parameterization_name,
+           "a part of " + std::to_string(chart.triangles.size()) + " triangles with a cut has " +
+               std::to_string(chart.rims.size()) + " rims and Euler characteristic " +
+               std::to_string(chart.eulerCharacteristic()) + ", must be a disk, with 1 and 1");
   }
 }
 
@@ -151,10 +150,10 @@ Eigen::MatrixX2d parameterizeCut(const Laplacian& laplacian, const TrianglesRef&
                                  const std::vector<std::vector<int>>& cuts, const ParameterizationOptions& options,
                                  ParameterizationReport* report) {
   checkPositions(cut_parameterization_name, laplacian);
-  if (!options.rim.empty()) refuse("a rim is given with cuts, must not be");
+  if (!options.rim.empty()) refuse(cut_parameterization_name, "a rim is given with cuts, must not be");
   if (options.method == ParameterizationMethod::harmonic && options.weights == HarmonicWeights::laplacian)
-    refuse("weights are those of L, which has no cuts, must be mean-value weights");
-  const std::set<Edge> edges = edgesOf(laplacian, cuts);
+    refuse(cut_parameterization_name, "weights are those of L, which has no cuts, must be mean-value weights");
+  const std::set<CutEdge> edges = edgesOf(laplacian, cuts);
   CutSurface cut = cutOpen(laplacian, triangles, edges);
   addPoints(laplacian, cut);
   requireDisks(cut, edges);

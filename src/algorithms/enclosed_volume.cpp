@@ -14,7 +14,7 @@ namespace {
 /// as open: noise leaves small holes, an open half sphere has one of half its area.
 constexpr double most_hole_area = 0.05;
 
-[[noreturn]] void refuse(const std::string& function, int point, const std::string& why) {
+[[noreturn]] void refuseComponent(const std::string& function, int point, const std::string& why) {
   throw InvalidInput(function + ": the component of point " + std::to_string(point) + " " + why);
 }
 
@@ -37,14 +37,16 @@ EnclosedVolume::EnclosedVolume(const std::string& function, const Laplacian& lap
   for (const Chart& chart : charts_) of_[components_.of[chart.triangles.front()[0]]].push_back(&chart);
   for (int c = 0; c < components_.count; ++c) {
     const int first = points_[c].front();
-    if (of_[c].empty()) refuse(function, first, "has no triangles, must have some to enclose a volume");
+    if (of_[c].empty()) refuseComponent(function, first, "has no triangles, must have some to enclose a volume");
     for (const Chart* chart : of_[c]) {
-      if (!chart->is_manifold) refuse(function, first, "has an edge of more than two triangles, must have none");
-      if (!chart->is_orientable) refuse(function, first, "is nonorientable, must have two sides");
-      if (!chart->rims.empty() && laplacian.kind == Kind::mesh) refuse(function, first, "has a rim, must be closed");
+      if (!chart->is_manifold)
+        refuseComponent(function, first, "has an edge of more than two triangles, must have none");
+      if (!chart->is_orientable) refuseComponent(function, first, "is nonorientable, must have two sides");
+      if (!chart->rims.empty() && laplacian.kind == Kind::mesh)
+        refuseComponent(function, first, "has a rim, must be closed");
     }
     const Body& body = before_.emplace_back(measure(points, c));
-    if (!(body.hole_area <= most_hole_area * body.area)) refuse(function, first, "has a rim, must be closed");
+    if (!(body.hole_area <= most_hole_area * body.area)) refuseComponent(function, first, "has a rim, must be closed");
   }
 }
 
@@ -89,7 +91,7 @@ void EnclosedVolume::restore(Eigen::MatrixXd& x) const {
     const Body old = before_[c], now = measure(x, c);
     for (const auto& [body, when] : {std::pair(old, "before"), std::pair(now, "after")})
       if (!(body.volume > 0))
-        refuse(function_, points_[c].front(), std::string("encloses no volume ") + when + " smoothing");
+        refuseComponent(function_, points_[c].front(), std::string("encloses no volume ") + when + " smoothing");
     const double factor = std::ldexp(std::cbrt(old.volume / now.volume), old.exponent - now.exponent);
     for (const int i : points_[c]) x.row(i) = now.centre + factor * (x.row(i) - now.centre);
   }

@@ -18,14 +18,14 @@ namespace {
 
 /// Nearest points that a plane is fitted to, beside the point itself. With it 10: of 10, 16, 30 and 48 this is the best
 /// on 14 clean shapes, and the second best on denoised ones.
-constexpr std::size_t few = 9;
+constexpr std::size_t fitted_neighbors = 9;
 /// A middle variance below this part of the largest counts as 0: points on a line keep the normal of 30 points.
 constexpr double singular = 1e-9;
 /// Least cosine to the normal of 30 points; a fit below it follows noise and is not used. Without it one normal in 800
 /// would point inwards on a cube with 1 % noise.
 constexpr double least_agreement = 0.5;
 /// Squared distances that differ by less than this part count as equal, so that a lattice has one answer in any order.
-constexpr double tie = 1e-9;
+constexpr double equal_distances = 1e-9;
 
 /// A plane or quadratic fitted to some points.
 struct Fit {
@@ -70,10 +70,10 @@ void takeOffsets(int p, const Points& positions, Rings& rings, std::vector<Eigen
             [](const Eigen::RowVector3d& a, const Eigen::RowVector3d& b) { return a.squaredNorm() < b.squaredNorm(); });
 }
 
-/// Number of the nearest `few` offsets, and of those as long as the last of them.
+/// Number of the nearest `fitted_neighbors` offsets, and of those as long as the last of them.
 int countFew(const std::vector<Eigen::RowVector3d>& offsets) {
-  std::size_t count = std::min(few, offsets.size());
-  const double farthest = (1 + tie) * offsets[count - 1].squaredNorm();
+  std::size_t count = std::min(fitted_neighbors, offsets.size());
+  const double farthest = (1 + equal_distances) * offsets[count - 1].squaredNorm();
   while (count < offsets.size() && offsets[count].squaredNorm() <= farthest) ++count;
   return static_cast<int>(count);
 }

@@ -26,10 +26,10 @@ struct Step {
 };
 
 /// A face in the plane: the side of a slot from (0, 0) to (length, 0), and the slot's own corner above it.
-struct Layout {
+struct PlaneFace {
   Vector2d after, before, own;
 
-  Layout(const MarchFaces& faces, int slot)
+  PlaneFace(const MarchFaces& faces, int slot)
       : after(0, 0),
         before(faces.lengthAt(slot), 0),
         own(apexLeftOf(after, before, faces.lengthAt(previousSide(slot)), faces.lengthAt(nextSide(slot)),
@@ -107,7 +107,7 @@ Step stepFrom(const MarchFaces& faces, const std::vector<double>& distance, int 
   for (int i = faces.corner_offset[vertex]; i < faces.corner_offset[vertex + 1]; ++i) {
     const int slot = faces.corner_slots[i];
     if (!hasClearEdges(faces, slot / 3)) continue;
-    const Layout face(faces, slot);
+    const PlaneFace face(faces, slot);
     best.offer(slot, face.own, slot, face.after, face.before);
   }
   return best.step();
@@ -120,7 +120,7 @@ Step stepOn(const MarchFaces& faces, const std::vector<double>& distance, const 
   for (int i = faces.edge_offset[edge]; i < faces.edge_offset[edge + 1]; ++i) {
     const int slot = faces.edge_slots[i];
     if (slot == step.end || !hasClearEdges(faces, slot / 3)) continue;
-    const Layout face(faces, slot);
+    const PlaneFace face(faces, slot);
     const bool is_turned = cornerBeyond(faces, nextSide(step.end), step.end, slot) != nextSide(slot);
     const double fraction = is_turned ? 1 - step.fraction : step.fraction;
     const Vector2d at = fraction * face.before;

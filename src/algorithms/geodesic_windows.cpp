@@ -22,20 +22,10 @@ using Eigen::Vector2d;
 constexpr double on_line = 1e-11;
 /// Paths bend by more than this, radians: rounding of the angles around a vertex is less.
 constexpr double least_bend = 1e-9;
-/// Windows between two calls of `progress`.
-constexpr std::int64_t between_reports = 65536;
+constexpr std::int64_t windows_between_reports = 65536;
 /// Most windows per vertex, and beside that. A torus of 16,000 points has 83 per vertex, and they grow with the root of
 /// the number of vertices. In thin triangles lines wind around their tips without an end.
 constexpr std::int64_t most_per_vertex = 2000, most_windows = 1'000'000;
-
-Vector2d polar(double length, double angle) {
-  return length * Vector2d(std::cos(angle), std::sin(angle));
-}
-
-/// The angle between two directions, radians.
-double between(const Vector2d& a, const Vector2d& b) {
-  return std::atan2(std::abs(cross(a, b)), a.dot(b));
-}
 
 }  // namespace
 
@@ -71,7 +61,7 @@ GeodesicWindows::GeodesicWindows(const IntrinsicTriangulation& surface, int expo
     const Window window = windows_.top();
     windows_.pop();
     cross(window);
-    if (done++ % between_reports == 0) workers.report("paths", static_cast<double>(settled) / surface.vertices);
+    if (done++ % windows_between_reports == 0) workers.report("paths", static_cast<double>(settled) / surface.vertices);
     if (done > most_windows + most_per_vertex * surface.vertices)
       throw SolverFailure(
           "LogMapSolver::query: " + std::to_string(done) +
@@ -149,7 +139,7 @@ void GeodesicWindows::leave(const Sector& sector, double low, double high, const
   const Vector2d right(lengthOf(right_side), 0), left = polar(lengthOf(left_side), sector.angle);
   if (low <= 0)
     reach(head(surface_, right_side), window.before + right.x(), window.turn,
-          {across, between(left - right, Vector2d(-right))});
+          {across, angleBetween(left - right, -right)});
   if (high >= sector.angle)
     reach(tail(surface_, left_side), window.before + lengthOf(left_side),
           window.has_bent ? window.turn : window.turn + sector.angle, {left_side, 0});
@@ -227,7 +217,7 @@ void GeodesicWindows::cross(const Window& window) {
     const double distance = window.before + apex.norm();
     reach(tail(surface_, left_side), distance,
           window.has_bent ? window.turn : window.turn + std::atan2(apex.y(), apex.x()),
-          {left_side, between(door.left - apex, Vector2d(-apex))});
+          {left_side, angleBetween(door.left - apex, -apex)});
     // Of two windows that see the vertex through this side, the one from which it is nearer goes on on both sides of
     // it, the other one on its own side only, as shortest paths do not cross. Where paths change their sheet, that has
     // lost some of them.

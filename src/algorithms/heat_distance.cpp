@@ -19,10 +19,6 @@
 namespace tufted {
 namespace {
 
-/// A mass below this part of the diagonal of L is raised to it: it would be lost in the sum, and the matrix might be
-/// singular.
-constexpr double least_mass = 1e-13;
-
 constexpr const char* heat_distance_constructor = "DistanceSolver";
 
 /// The matrix M / t + L of the heat equation, M being the lumped areas of the faces.

@@ -20,9 +20,6 @@ constexpr double valid = 1e-285;
 /// evened out.
 constexpr double front = 1e-245;
 
-/// The tolerance of conjugate gradients for heat, which is used far below its largest value.
-constexpr double heat_tolerance = 1e-12;
-
 /// The factor of a matrix; null if it takes more memory than the options allow.
 std::unique_ptr<const LinearSystem> factorise(const std::string& function, const SparseMatrix& matrix,
                                               const SolverOptions& options) {

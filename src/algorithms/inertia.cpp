@@ -10,7 +10,7 @@
 namespace tufted {
 namespace {
 
-class Factor : public Eigen::SimplicialLDLT<LongMatrix> {
+class LongFactor : public Eigen::SimplicialLDLT<LongMatrix> {
  public:
   /// Bytes of the factor; known after the analysis.
   std::size_t bytes() const {
@@ -28,7 +28,7 @@ std::optional<Eigen::Index> eigenvaluesBelow(const SparseMatrix& L, const Vector
   const LongMatrix lower =
       lowerTriangle(L, selection, [&](int i, int j, double value) { return i == j ? value - bound * mass[i] : value; });
   // Eigen's factor, as CHOLMOD's supernodal one is for positive definite matrices only.
-  Factor factor;
+  LongFactor factor;
   factor.analyzePattern(lower);
   if (factor.bytes() > memory_limit) return std::nullopt;
   factor.factorize(lower);

@@ -33,6 +33,12 @@ struct SystemNames {
 /// Largest backward error of a solve by a factor; above it, SolverFailure is thrown. It is a few hundred roundings; all
 /// of 37,032 solves on spheres of 50 to 1,000 points met it.
 constexpr double most_backward_error = 1e-13;
+/// In M / t + L a mass below this part of the diagonal of L is raised to it. In the sum it would be lost; so the matrix
+/// stays a positive definite M-matrix, and the maximum principle holds for any time step.
+constexpr double least_mass = 1e-13;
+/// The tolerance of conjugate gradients for heat, near the best that they reach, as heat is used far below its largest
+/// value.
+constexpr double heat_tolerance = 1e-12;
 
 /// When the solution of a system is corrected by solving for the remainder.
 enum class Refine {

@@ -17,8 +17,7 @@
 namespace tufted {
 namespace {
 
-/// Vertices frozen between two calls of `progress`.
-constexpr std::int64_t between_reports = 65536;
+constexpr std::int64_t vertices_between_reports = 65536;
 /// A source goes on from a vertex only if it is farther than the nearest source by at most this many times the longest
 /// edge there. Each edge more reduces the error to a fifteenth; with 4, 22 of 90,000 distances on a flat grid are off
 /// by up to 5e-9.
@@ -27,7 +26,7 @@ constexpr double march_reach = 5;
 /// sources side by side are off by up to 1.2 %, with 16 by 0.5 %, and without it 100 of them take 71 times one.
 constexpr int march_margin = 16;
 /// Distances along one line differ by less than this part because of rounding.
-constexpr double rounding = 1e-13;
+constexpr double line_rounding = 1e-13;
 
 MarchResult unreached(std::size_t vertices) {
   return {.distance = std::vector<double>(vertices, infinity), .source = std::vector<int>(vertices, -1)};
@@ -69,7 +68,7 @@ class March {
     MarchResult result = unreached(faces_.size());
     std::vector<double> bound = result.distance;
     boundAlongEdges(faces_.faces, starts, bound);
-    for (double& entry : bound) entry *= 1 + rounding;
+    for (double& entry : bound) entry *= 1 + line_rounding;
     const std::vector<std::span<const MarchStart>> sources = spreadSources(starts);
     parts_ = static_cast<double>(sources.size());
     marchWithin(bound);
@@ -167,7 +166,7 @@ class March {
       if (parts_ > 1) touched_.push_back(a);
       if (!bound_.empty() && distance <= bound_[a]) edges_beside_[a] = 0;
       if (distance <= maximum_ || distance - maximum_ <= longestEdgeAt(a)) nearest_.push_back(a);
-      if (++result_.visits % between_reports == 0) {
+      if (++result_.visits % vertices_between_reports == 0) {
         const double share = static_cast<double>(result_.visits - visits_before_) / static_cast<double>(faces_.size());
         workers_.report("march", (part_ + std::min(1.0, share)) / parts_);
       }
@@ -252,7 +251,7 @@ class March {
   /// Whether a distance is below the straight line. Stewart's theorem excludes that for a triangle with straight sides
   /// if it does not hold at its other corners, but the unfolded source may be too near if an edge is bent in space.
   bool isTooShort(int vertex, double distance) const {
-    return distance < (1 - rounding) * straightBetween(vertex, source_);
+    return distance < (1 - line_rounding) * straightBetween(vertex, source_);
   }
 
   /// The distance through the triangle that the corners span in space.

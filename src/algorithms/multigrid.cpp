@@ -113,7 +113,7 @@ SparseMatrix prolongation(const SparseMatrix& A, const std::vector<int>& group, 
   return piecewise + smoothed;
 }
 
-struct Level {
+struct GridLevel {
   SparseMatrix A;
   SparseMatrix P;  ///< from the next, coarser level; none on the coarsest
 };
@@ -129,7 +129,7 @@ class Multigrid : public LinearBackend {
     while (true) {
       workers.report("coarsen", static_cast<double>(levels_.size()) / most_levels);
       if (!(A.diagonal().minCoeff() > 0)) return false;
-      Level& level = levels_.emplace_back();
+      GridLevel& level = levels_.emplace_back();
       level.A = std::move(A);
       if (level.A.rows() <= coarsest_size || levels_.size() == most_levels) break;
       const SparseMatrix strong_part = filtered(level.A, strong * std::pow(0.5, double(levels_.size() - 1)));
@@ -144,7 +144,7 @@ class Multigrid : public LinearBackend {
     direct_ = last.rows() <= largest_direct;
     if (direct_) coarsest_.compute(last);
     if (direct_ && coarsest_.info() != Eigen::Success) return false;
-    for (const Level& level : levels_) {
+    for (const GridLevel& level : levels_) {
       nonzeros += level.A.nonZeros() + level.P.nonZeros();
       bytes += static_cast<std::size_t>(level.A.nonZeros() + level.P.nonZeros()) * (sizeof(double) + sizeof(int));
     }
@@ -240,7 +240,7 @@ class Multigrid : public LinearBackend {
   }
 
   MultigridOptions options_;
-  std::vector<Level> levels_;
+  std::vector<GridLevel> levels_;
   std::vector<int> part_;  ///< connected part of the matrix that each row belongs to
   int parts_ = 0;
   Eigen::SimplicialLDLT<SparseMatrix> coarsest_;

@@ -67,12 +67,12 @@ std::vector<SignedEdge> edgesOf(const Laplacian& laplacian, const Points& normal
 }
 
 /// For each part of the surface, how its normals point.
-struct Sides {
+struct PartSides {
   std::vector<double> outward;  ///< three times the volume over area and extent; negative if normals point inwards
   std::vector<Eigen::RowVector3d> mean;  ///< mean normal by area; 0 on a closed part
 };
 
-Sides sidesOf(const Laplacian& laplacian, const Components& components, const Points& normals) {
+PartSides sidesOf(const Laplacian& laplacian, const Components& components, const Points& normals) {
   const Points& positions = laplacian.positions;
   const VectorXd weights = components.weights(laplacian.M);
   // Positions are taken relative to one point and over the extent, against overflow and cancellation.

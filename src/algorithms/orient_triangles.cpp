@@ -14,10 +14,10 @@ using Triangle = std::array<int, 3>;
 
 /// If the volume of a component over its area and size is smaller than this, it is rounding, and the mean normal
 /// decides.
-constexpr double flat_share = 1e-6;
+constexpr double rounded_volume = 1e-6;
 
 /// A side of a triangle, by its ends.
-struct Side {
+struct TriangleSide {
   int low, high;
   int triangle;
   bool ascends;  ///< whether the side runs from `low` to `high`
@@ -32,7 +32,7 @@ struct AdjacentTriangle {
 /// The neighbours of each triangle across its inner edges.
 std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Triangle>& triangles,
                                                          TriangleReport& report) {
-  std::vector<Side> sides;
+  std::vector<TriangleSide> sides;
   sides.reserve(3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -40,11 +40,11 @@ std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Trian
       sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), a < b});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
     return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
   });
   std::vector<std::array<AdjacentTriangle, 3>> neighbors(triangles.size());
-  const auto join = [&](const Side& from, const Side& to) {
+  const auto join = [&](const TriangleSide& from, const TriangleSide& to) {
     for (AdjacentTriangle& place : neighbors[from.triangle]) {
       if (place.triangle >= 0) continue;
       place = {to.triangle, from.ascends != to.ascends};
@@ -94,7 +94,7 @@ bool isInsideOut(const Laplacian& laplacian, const std::vector<Triangle>& triang
     const auto& [a, b, c] = triangles[t];
     volume += (place(b) - place(a)).cross(place(c) - place(a)).dot(place(a) - centre);
   }
-  if (std::abs(volume) > flat_share * area) return volume < 0;
+  if (std::abs(volume) > rounded_volume * area) return volume < 0;
   int axis = 0;
   mean.cwiseAbs().maxCoeff(&axis);
   return mean[axis] < 0;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -20,7 +19,6 @@
 #include "base/require.h"
 #include "base/sort_unique.h"
 #include "base/stage_clock.h"
-#include "tufted/errors.h"
 #include "tufted/interpolation.h"
 
 namespace tufted {
@@ -30,11 +28,6 @@ constexpr const char* parameterization_name = "parameterize";
 /// A chart is not laid out if more than this share of its area collapses, as on long tubes; needles and ends of spikes
 /// are less.
 constexpr double most_collapsed = 1e-3;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-[[noreturn]] void refuse(const std::string& why) {
-  throw InvalidInput(std::string(parameterization_name) + ": " + why);
-}
 
 void checkArguments(const Laplacian& laplacian, const ParameterizationOptions& options) {
   checkPositions(parameterization_name, laplacian);
@@ -42,11 +35,12 @@ void checkArguments(const Laplacian& laplacian, const ParameterizationOptions& o
   requireChoice(options.weights, HarmonicWeights::mean_value, parameterization_name, "weights");
   const bool is_harmonic = options.method == ParameterizationMethod::harmonic;
   if (!is_harmonic && (!options.rim.empty() || options.weights != HarmonicWeights::laplacian))
-    refuse("rim or weights are given, must be with ParameterizationMethod::harmonic alone");
+    refuse(parameterization_name, "rim or weights are given, must be with ParameterizationMethod::harmonic alone");
   if (options.rim_positions.rows() > 0 && options.rim_positions.rows() != std::ssize(options.rim))
-    refuse("rim_positions has " + std::to_string(options.rim_positions.rows()) + " rows, must have " +
-           std::to_string(options.rim.size()) + ", one per point of rim");
-  if (!options.rim_positions.allFinite()) refuse("rim_positions are not finite, must be");
+    refuse(parameterization_name, "rim_positions has " + std::to_string(options.rim_positions.rows()) +
+                                      " rows, must have " + std::to_string(options.rim.size()) +
+                                      ", one per point of rim");
+  if (!options.rim_positions.allFinite()) refuse(parameterization_name, "rim_positions are not finite, must be");
 }
 
 /// The beginning of messages about the largest chart.
@@ -68,12 +62,14 @@ std::vector<const Chart*> mappableCharts(const std::vector<Chart>& charts, Param
       ++(!chart.is_manifold ? report.nonmanifold : !chart.is_orientable ? report.nonorientable : report.closed);
     }
   }
-  if (charts.empty()) refuse("no triangle has three different active points, must be at least one");
+  if (charts.empty())
+    refuse(parameterization_name, "no triangle has three different active points, must be at least one");
   const Chart& largest = charts.front();
   const std::string where = textOf(largest);
-  if (!largest.is_manifold) refuse(where + "has an edge of more than two triangles, must have none");
-  if (!largest.is_orientable) refuse(where + "is nonorientable, must have two sides");
-  if (largest.rims.empty()) refuse(where + "is closed, must have a rim: cut it open");
+  if (!largest.is_manifold)
+    refuse(parameterization_name, where + "has an edge of more than two triangles, must have none");
+  if (!largest.is_orientable) refuse(parameterization_name, where + "is nonorientable, must have two sides");
+  if (largest.rims.empty()) refuse(parameterization_name, where + "is closed, must have a rim: cut it open");
   return kept;
 }
 
@@ -84,7 +80,7 @@ Eigen::MatrixX2d conformal(const Laplacian& laplacian, std::vector<const Chart*>
                            const ParameterizationOptions& options, std::vector<int>& owner,
                            ParameterizationReport& report) {
   const auto n = std::ssize(laplacian.status);
-  Eigen::MatrixX2d uv = Eigen::MatrixX2d::Constant(n, 2, nan);
+  Eigen::MatrixX2d uv = Eigen::MatrixX2d::Constant(n, 2, std::nan(""));
   std::vector<Eigen::MatrixX2d> maps;
   std::vector<std::vector<int>> members;
   std::vector<int> exponents, local(static_cast<std::size_t>(n), -1);
@@ -100,8 +96,9 @@ Eigen::MatrixX2d conformal(const Laplacian& laplacian, std::vector<const Chart*>
     const Collapse collapse = placeAlone(laplacian.positions, *chart, exponent, local, map);
     if (collapse.area_share > most_collapsed) {
       if (chart == charts.front())
-        refuse(textOf(*chart) + "is too long for its rims: " + std::to_string(collapse.triangles) +
-               " triangles collapse in the plane; cut it open along its length");
+        refuse(parameterization_name, textOf(*chart) +
+                                          "is too long for its rims: " + std::to_string(collapse.triangles) +
+                                          " triangles collapse in the plane; cut it open along its length");
       ++report.collapsed_charts;
       continue;
     }
@@ -130,18 +127,21 @@ Eigen::MatrixX2d conformal(const Laplacian& laplacian, std::vector<const Chart*>
 
 /// The rim of a surface that must be a disk.
 std::vector<int> rimOfDisk(const std::vector<Chart>& charts) {
-  if (charts.size() > 1) refuse("the surface has " + std::to_string(charts.size()) + " parts, must be one");
+  if (charts.size() > 1)
+    refuse(parameterization_name, "the surface has " + std::to_string(charts.size()) + " parts, must be one");
   const Chart& chart = charts.front();
   if (chart.rims.size() > 1)
-    refuse("the surface has " + std::to_string(chart.rims.size()) + " rims, must have one; or give the rim");
+    refuse(parameterization_name,
+           "the surface has " + std::to_string(chart.rims.size()) + " rims, must have one; or give the rim");
   std::vector<int> rim = chart.rims.front(), sorted = rim;
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
   if (twice != sorted.end())
-    refuse("the rim passes point " + std::to_string(*twice) + " more than once, must pass it once");
+    refuse(parameterization_name,
+           "the rim passes point " + std::to_string(*twice) + " more than once, must pass it once");
   if (chart.eulerCharacteristic() != 1)
-    refuse("the surface has Euler characteristic " + std::to_string(chart.eulerCharacteristic()) +
-           ", must have 1, that of a disk");
+    refuse(parameterization_name, "the surface has Euler characteristic " +
+                                      std::to_string(chart.eulerCharacteristic()) + ", must have 1, that of a disk");
   // Starts at the smallest index.
   std::rotate(rim.begin(), std::min_element(rim.begin(), rim.end()), rim.end());
   return rim;
@@ -156,16 +156,18 @@ std::vector<int> givenRim(const Laplacian& laplacian, const ParameterizationOpti
   for (const int given : options.rim) {
     const std::string point = "point " + std::to_string(given) + " of rim ";
     if (given < 0 || given >= n)
-      refuse("rim has " + std::to_string(given) + ", must lie in [0, " + std::to_string(n) + ")");
+      refuse(parameterization_name,
+             "rim has " + std::to_string(given) + ", must lie in [0, " + std::to_string(n) + ")");
     const int i = laplacian.representative[given];
-    if (components.of[i] < 0) refuse(point + "lies on no component, must be active");
-    if (seen[i] != 0) refuse(point + "is given twice, must be once");
+    if (components.of[i] < 0) refuse(parameterization_name, point + "lies on no component, must be active");
+    if (seen[i] != 0) refuse(parameterization_name, point + "is given twice, must be once");
     seen[i] = 1;
     rim.push_back(i);
     if (components.of[i] != components.of[rim[0]])
-      refuse(point + "lies on another component than the first, must lie on the same");
+      refuse(parameterization_name, point + "lies on another component than the first, must lie on the same");
   }
-  if (rim.size() < 3) refuse("rim has " + std::to_string(rim.size()) + " points, must have at least 3");
+  if (rim.size() < 3)
+    refuse(parameterization_name, "rim has " + std::to_string(rim.size()) + " points, must have at least 3");
   return rim;
 }
 
@@ -195,7 +197,7 @@ Eigen::MatrixX2d harmonicMap(const Laplacian& laplacian, const std::vector<Chart
                              const ParameterizationOptions& options, ParameterizationReport& report) {
   const bool is_mean_value = options.weights == HarmonicWeights::mean_value;
   if (is_mean_value && charts.size() > 1)
-    refuse("the surface has " + std::to_string(charts.size()) + " parts, must be one");
+    refuse(parameterization_name, "the surface has " + std::to_string(charts.size()) + " parts, must be one");
   const std::vector<int> rim = options.rim.empty() ? rimOfDisk(charts) : givenRim(laplacian, options);
   const Eigen::MatrixX2d values =
       options.rim_positions.rows() > 0 ? options.rim_positions : onCircle(laplacian.positions, rim);
@@ -207,7 +209,7 @@ Eigen::MatrixX2d harmonicMap(const Laplacian& laplacian, const std::vector<Chart
     report.solver_method = solved.method;
     return uv;
   }
-  Eigen::MatrixX2d uv = Eigen::MatrixX2d::Constant(std::ssize(laplacian.status), 2, nan);
+  Eigen::MatrixX2d uv = Eigen::MatrixX2d::Constant(std::ssize(laplacian.status), 2, std::nan(""));
   std::vector<std::uint8_t> is_pinned(laplacian.status.size(), 0), is_named(laplacian.status.size(), 0);
   for (std::size_t k = 0; k < rim.size(); ++k) {
     uv.row(rim[k]) = values.row(static_cast<Eigen::Index>(k));
@@ -216,7 +218,8 @@ Eigen::MatrixX2d harmonicMap(const Laplacian& laplacian, const std::vector<Chart
   for (const auto& corners : charts.front().triangles)
     for (const int i : corners) is_named[i] = 1;
   for (const int i : rim)
-    if (is_named[i] == 0) refuse("point " + std::to_string(i) + " of rim lies on no triangle, must lie on one");
+    if (is_named[i] == 0)
+      refuse(parameterization_name, "point " + std::to_string(i) + " of rim lies on no triangle, must lie on one");
   mapByMeanValues(parameterization_name, laplacian.positions, charts.front(), is_pinned, options.solver, uv, report);
   return uv;
 }

@@ -27,8 +27,7 @@ constexpr const char* through_name = "PathSolver::through";
 /// A path is led around a point only if that makes it shorter by this part, which is above rounding; it might alternate
 /// forever otherwise.
 constexpr double least_gain = 1e-13;
-/// Shortenings between two calls of `progress`.
-constexpr int between_reports = 64;
+constexpr int shortenings_between_reports = 64;
 
 using SegmentList = std::list<Segment>;
 
@@ -47,7 +46,7 @@ int shorten(const MarchFaces& faces, SegmentList& path, bool keeps_class, const 
       ++after;
       continue;
     }
-    if (++count % between_reports == 0) workers.report("straighten", 0);
+    if (++count % shortenings_between_reports == 0) workers.report("straighten", 0);
     const auto end = path.erase(before, std::next(after));
     const auto first =
         path.insert(end, std::make_move_iterator(pieces->begin()), std::make_move_iterator(pieces->end()));

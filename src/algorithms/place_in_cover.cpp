@@ -20,7 +20,7 @@ namespace {
 
 /// A vertex counts as on a line if it is no farther from it than this part of the longer side. The values are tried in
 /// turn: the first allows for rounding, the others for mollification.
-constexpr std::array<double, 3> on_line = {1e-9, 1e-6, 1e-3};
+constexpr std::array<double, 3> line_tolerances = {1e-9, 1e-6, 1e-3};
 /// If a match is exact up to this part of the longer side, the search ends.
 constexpr double exact_fit = 1e-9;
 /// Weights of a source sum to 1 up to this.
@@ -139,7 +139,7 @@ std::vector<PlaceInCover> placesInCover(const std::string& function, const Cover
     }
     const auto& [a, b, c] = sources[s].corners;
     std::vector<PlaceInCover> found;
-    for (const double part : on_line)
+    for (const double part : line_tolerances)
       if (found.empty() && a != b && b != c && c != a)
         found = placesOf(cover, Wedge::of(sources[s], part), sides.find(corner)->second);
     if (found.empty())

@@ -12,9 +12,9 @@ namespace tufted {
 namespace {
 
 /// Maximum number of solves, the first one included; more than two are rarely needed.
-constexpr int most_corrections = 6;
+constexpr int most_solves = 6;
 /// A correction below this part of the range of the values is the last.
-constexpr double negligible = 1e-15;
+constexpr double last_correction = 1e-15;
 
 Eigen::RowVectorXd norms(const Eigen::MatrixXd& values) {
   Eigen::RowVectorXd result(values.cols());
@@ -43,11 +43,11 @@ Eigen::MatrixXd Refinement::run(const SparseMatrix& A, const Progress& progress,
   open_ = last_ = Eigen::MatrixXd::Ones(given_.means.rows(), given_.means.cols());
   last_ *= std::numeric_limits<double>::infinity();
   Eigen::RowVectorXd first;
-  for (int round = 0; round < most_corrections; ++round) {
+  for (int round = 0; round < most_solves; ++round) {
     const Eigen::MatrixXd rest = missing(u_, open_);
     if (round == 0) first = norms(rest);
     if (rest.isZero(0)) break;
-    add(solver_.solve(function_, rest, progress, made.iterations), round + 1 == most_corrections);
+    add(solver_.solve(function_, rest, progress, made.iterations), round + 1 == most_solves);
   }
   made.method = solver_.report().method;
   measure(A, first, made);
@@ -94,7 +94,7 @@ void Refinement::add(const Eigen::MatrixXd& step, bool is_last) {
   if (is_last ? wrong.any() : (wrong && open_.array() == 0).any()) {
     fail("corrections do not become small, so digits are wrong; the matrix is too close to singular; " + advice());
   }
-  open_ = (largest.array() > negligible * range.array()).select(open_, 0);
+  open_ = (largest.array() > last_correction * range.array()).select(open_, 0);
   last_ = largest;
 }
 

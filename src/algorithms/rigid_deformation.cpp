@@ -20,7 +20,7 @@ constexpr double least_descent = 1e-4;
 constexpr int most_halvings = 12;
 /// The energy may rise by this part of itself, some roundings of the sum, which would decide about the last steps
 /// otherwise.
-constexpr double rounding = 1e-14;
+constexpr double energy_rounding = 1e-14;
 /// The resistance to rotation is at least this part of its mean, so that it is not 0 at points whose edges have no
 /// length.
 constexpr double least_resistance = 1e-6;
@@ -138,7 +138,7 @@ RigidDeformation::Result RigidDeformation::run(const std::string& function, Pose
     Pose next = after(pose, step);
     Evaluation found = evaluate(next, workers);
     const auto descends = [&] {
-      return found.energy <= now.energy - least_descent * share * promised + rounding * now.energy;
+      return found.energy <= now.energy - least_descent * share * promised + energy_rounding * now.energy;
     };
     for (int k = 0; k < most_halvings && !descends(); ++k) {
       share /= 2;

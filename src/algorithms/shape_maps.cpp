@@ -10,10 +10,10 @@
 #include "algorithms/check_positions.h"
 #include "base/dense_solvers.h"
 #include "base/number_text.h"
+#include "base/require.h"
 #include "neighbors/morton.h"
 #include "neighbors/nearest_rows.h"
 #include "tufted/check.h"
-#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -21,15 +21,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int energies = 100;              ///< of wave kernels, as Aubry et al. take
-constexpr double kernel_steps = 7;         ///< width of a wave kernel in steps of the energy, by Aubry et al.
-constexpr double least_width = 1e-8;       ///< of a wave kernel: far above the rounding of logarithms
-constexpr int candidates_per_sample = 10;  ///< see ZoomOutOptions::samples
-constexpr int first_pairs = 20;            ///< of a start from points; the null space alone tells no points apart
-
-[[noreturn]] void refuse(const std::string& function, const std::string& why) {
-  throw InvalidInput(function + ": " + why);
-}
+constexpr int energies = 100;                ///< of wave kernels, as Aubry et al. take
+constexpr double kernel_steps = 7;           ///< width of a wave kernel in steps of the energy, by Aubry et al.
+constexpr double least_kernel_width = 1e-8;  ///< of a wave kernel: far above the rounding of logarithms
+constexpr int candidates_per_sample = 10;    ///< see ZoomOutOptions::samples
+constexpr int first_pairs = 20;              ///< of a start from points; the null space alone tells no points apart
 
 void requireAtLeast(const std::string& function, const char* name, int value, int least) {
   if (value < least)
@@ -209,7 +205,7 @@ Descriptors descriptorsOf(const std::string& function, const Bases& bases, const
   const double one = std::log(std::max(first(bases.source), first(bases.target)));
   const double other = std::log(std::min(bases.source.values.tail(1)[0], bases.target.values.tail(1)[0]));
   const VectorXd logarithms = VectorXd::LinSpaced(energies, std::min(one, other), std::max(one, other));
-  const double width = std::max(kernel_steps * (logarithms[1] - logarithms[0]), least_width);
+  const double width = std::max(kernel_steps * (logarithms[1] - logarithms[0]), least_kernel_width);
   const MatrixXd &a = options.source_descriptors, &b = options.target_descriptors;
   if (a.cols() != b.cols())
     refuse(function, "descriptors have " + std::to_string(a.cols()) + " and " + std::to_string(b.cols()) +

@@ -20,10 +20,6 @@
 namespace tufted {
 namespace {
 
-/// A mass below this part of the diagonal of t L is raised to it. In the sum it would be lost; so the matrix stays a
-/// positive definite M-matrix, and the maximum principle holds for any time step.
-constexpr double least_mass = 1e-13;
-
 /// Longest time step. It moves all points of a mesh of 642 to their centre of mass up to 1e-9; from 1e13 on masses are
 /// lost, and they move elsewhere.
 constexpr double longest_step = 1e10;
@@ -114,13 +110,13 @@ Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_fre
 }
 
 /// The matrix of one step, factored.
-struct Step {
+struct FactoredStep {
   std::vector<bool> is_free;
   std::optional<LinearSystem> system;  ///< not set if nothing moves
   SolverReport report;
 
   /// @param function named in errors
-  Step(const std::string& function, const Laplacian& laplacian, const SmoothingOptions& options) {
+  FactoredStep(const std::string& function, const Laplacian& laplacian, const SmoothingOptions& options) {
     const double time_step = options.time_step;
     checkSizes(function, laplacian);
     checkFixed(function, laplacian, options.fixed);
@@ -216,7 +212,7 @@ Eigen::MatrixXd smoothed(const std::string& function, const Laplacian& laplacian
   checkFixed(function, laplacian, options.fixed);
   requireChoice(options.method, SmoothingMethod::taubin, function, "method");
   if (options.method == SmoothingMethod::taubin) return smoothByTaubin(function, laplacian, values, options);
-  const Step step(function, laplacian, options);
+  const FactoredStep step(function, laplacian, options);
   return step.smooth(function, laplacian, values, options.iterations, options.solver.progress);
 }
 
@@ -249,7 +245,7 @@ Eigen::MatrixXd smoothValues(const Laplacian& laplacian, const Eigen::MatrixXd& 
 
 struct SmoothingSolver::State {
   Laplacian laplacian;
-  Step step;
+  FactoredStep step;
 };
 
 SmoothingSolver::SmoothingSolver(const Laplacian& laplacian, const SmoothingOptions& options) {
@@ -257,7 +253,7 @@ SmoothingSolver::SmoothingSolver(const Laplacian& laplacian, const SmoothingOpti
   if (options.method != SmoothingMethod::implicit)
     throw InvalidInput(function + ": method = taubin, must be implicit: there is nothing to factorise");
   if (options.volume_of != nullptr) throw InvalidInput(function + ": volume_of is given, must not be");
-  Step step(function, laplacian, options);
+  FactoredStep step(function, laplacian, options);
   state_ = std::make_unique<const State>(State{keptLaplacian(laplacian), std::move(step)});
 }
 

@@ -137,10 +137,6 @@ Run runAround(const Layout& layout, const Touch& touch) {
   return run;
 }
 
-double angleBetween(const Vector2d& a, const Vector2d& b) {
-  return std::atan2(std::abs(cross(a, b)), a.dot(b));
-}
-
 /// The segment through the doors [begin, end) of a layout.
 Segment segmentThrough(const MarchFaces& faces, const Strip& whole, const Layout& layout, int start, int last,
                        std::size_t begin, std::size_t end, const Vector2d& from, const Vector2d& to) {

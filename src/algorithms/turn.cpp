@@ -16,7 +16,7 @@ namespace tufted {
 namespace {
 
 /// Angles within this of pi, in radians, count as straight.
-constexpr double straight = 1e-9;
+constexpr double straight_angle = 1e-9;
 /// Maximum number of faces to try per triangle of a piece that is laid through others; usually two meet at an edge,
 /// three next to flips.
 constexpr int most_faces_by_doors = 8;
@@ -35,9 +35,9 @@ EdgeEnd edgeEnd(const MarchFaces& faces, int side, int corner) {
 }
 
 /// The edges at a point and the triangles between them.
-class Link {
+class VertexLink {
  public:
-  Link(const MarchFaces& faces, int vertex) : faces_(faces) {
+  VertexLink(const MarchFaces& faces, int vertex) : faces_(faces) {
     for (int i = faces.corner_offset[vertex]; i < faces.corner_offset[vertex + 1]; ++i) {
       const int slot = faces.corner_slots[i];
       if (!hasClearEdges(faces, slot / 3)) continue;
@@ -153,7 +153,8 @@ std::vector<Segment> straightenTogether(const MarchFaces& faces, const Strip& be
 
 /// Inserts the triangles around the point between those of two pieces.
 /// @param goal the edge at the start of the second piece where the way around the point ends
-Strip join(const MarchFaces& faces, const Link& link, const Strip& before, const Strip& after, const EdgeEnd& goal) {
+Strip join(const MarchFaces& faces, const VertexLink& link, const Strip& before, const Strip& after,
+           const EdgeEnd& goal) {
   std::vector<EdgeEnd> edges;
   std::vector<int> slots;
   link.wayTo(goal, edges, slots);
@@ -178,7 +179,7 @@ Strip join(const MarchFaces& faces, const Link& link, const Strip& before, const
 /// Triangles that flips led over a rim overlap others. The second piece, which starts in one of them, is laid through
 /// each of the others if the angle around the point is then below pi.
 /// @returns the shortest result, if it is shorter than both pieces together
-std::optional<std::vector<Segment>> shortcutThroughOthers(const MarchFaces& faces, const Link& link,
+std::optional<std::vector<Segment>> shortcutThroughOthers(const MarchFaces& faces, const VertexLink& link,
                                                           const Segment& before, const Segment& after) {
   const Strip& first = before.strip;
   const int start = after.strip.start, target = faces.vertexAt(after.strip.end);
@@ -187,12 +188,13 @@ std::optional<std::vector<Segment>> shortcutThroughOthers(const MarchFaces& face
   double least = before.length + after.length;
   for (const int i : {0, 1}) {
     const double angle = after.at_start[i];
-    for (const Link::Side& at : link.sidesAt(edgeEnd(faces, i == 0 ? nextSide(start) : previousSide(start), start))) {
+    for (const VertexLink::Side& at :
+         link.sidesAt(edgeEnd(faces, i == 0 ? nextSide(start) : previousSide(start), start))) {
       const double rest = cornerAngle(faces, at.slot) - angle;
       const EdgeEnd beyond = edgeEnd(faces, thirdSlot(at.slot, at.side), at.slot);
       const bool is_with_first = !first.isEdge() && first.end == at.slot;
       const double around = is_with_first ? 0 : link.angleTo(beyond) + rest;
-      if (at.slot == start || !(rest > 0 && around < std::numbers::pi - straight)) continue;
+      if (at.slot == start || !(rest > 0 && around < std::numbers::pi - straight_angle)) continue;
       const double from_first = at.side == previousSide(at.slot) ? angle : rest;
       const std::optional<Strip> other = straightWay(faces, at.slot, from_first, after.length, target, most_faces);
       if (!other) continue;
@@ -216,10 +218,10 @@ std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Se
     return std::vector<Segment>();
   if (!first.isEdge() && !second.isEdge() && first.end == second.start) {
     // Both pieces lie in one triangle at the point.
-    if (!(std::abs(before.at_end[0] - after.at_start[0]) < std::numbers::pi - straight)) return {};
+    if (!(std::abs(before.at_end[0] - after.at_start[0]) < std::numbers::pi - straight_angle)) return {};
     return straightenTogether(faces, first, second);
   }
-  Link link(faces, faces.vertexAt(slot));
+  VertexLink link(faces, faces.vertexAt(slot));
   if (first.isEdge()) {
     link.start(edgeOf(faces, first, slot), 0);
   } else {
@@ -241,7 +243,7 @@ std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Se
     offer(edgeEnd(faces, nextSide(second.start), second.start), after.at_start[0]);
     offer(edgeEnd(faces, previousSide(second.start), second.start), after.at_start[1]);
   }
-  if (least < std::numbers::pi - straight) return straighten(faces, join(faces, link, first, second, goal));
+  if (least < std::numbers::pi - straight_angle) return straighten(faces, join(faces, link, first, second, goal));
   if (second.isEdge() || keeps_class) return {};
   return shortcutThroughOthers(faces, link, before, after);
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "algorithms/check_positions.h"
 #include "algorithms/connection.h"
@@ -16,18 +15,11 @@
 namespace tufted {
 namespace {
 
-/// A mass below this part of the diagonal of L is raised to it, as it would be lost in the sum.
-constexpr double least_mass = 1e-13;
 /// Heat is used down to this part of the largest: with a factor half the exponents of a double, as squares are taken;
 /// with conjugate gradients six digits above their tolerance, which is relative to the largest.
 constexpr double front_of_factor = 1e-150, front_of_iterations = 1e-6;
-/// The tolerance of conjugate gradients for heat, near the best that they reach, as heat is used far below its largest
-/// value.
-constexpr double heat_tolerance = 1e-12;
 /// The part of the memory for the factor of scalars; that of vectors has four times as many entries.
 constexpr double scalar_share = 0.2;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The root mean squared distance of neighbours in L on each component; 1 if there are none.
 VectorXd spacingsOf(const SparseMatrix& L, const Points& positions, const Components& components) {
@@ -190,8 +182,8 @@ HeatFields FieldHeat::flowAhead(const HeatFields& heat, const std::vector<std::u
 HeatFields FieldHeat::spread(const char* function, const HeatFields& sources, VectorHeatReport& report,
                              const Progress& progress) const {
   const double front = report_.iterative ? front_of_iterations : front_of_factor;
-  HeatFields result{Eigen::MatrixXd::Constant(sources.scalars.rows(), sources.scalars.cols(), nan),
-                    Eigen::MatrixXd::Constant(sources.vectors.rows(), sources.vectors.cols(), nan)};
+  HeatFields result{Eigen::MatrixXd::Constant(sources.scalars.rows(), sources.scalars.cols(), std::nan("")),
+                    Eigen::MatrixXd::Constant(sources.vectors.rows(), sources.vectors.cols(), std::nan(""))};
   std::vector<std::uint8_t> passed(size(), 0);
   HeatFields flow = sources;
   for (bool flows = true; flows;) {

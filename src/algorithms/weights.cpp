@@ -10,6 +10,7 @@
 #include "algorithms/coincident.h"
 #include "algorithms/connected.h"
 #include "base/parallel.h"
+#include "base/require.h"
 #include "base/stage_clock.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -19,35 +20,31 @@ namespace {
 
 constexpr const char* weights_name = "boundedBiharmonicWeights";
 
-[[noreturn]] void refuse(const std::string& why) {
-  throw InvalidInput(std::string(weights_name) + ": " + why);
-}
-
 /// The handle of each active point, N; -1: none.
 std::vector<int> handlesOfPoints(const Laplacian& laplacian, const Components& components,
                                  const std::vector<std::vector<int>>& handles) {
   const auto n = static_cast<int>(laplacian.status.size());
-  if (handles.empty()) refuse("handles is empty, must name at least one");
+  if (handles.empty()) refuse(weights_name, "handles is empty, must name at least one");
   std::vector<int> of(laplacian.status.size(), -1);
   for (std::size_t h = 0; h < handles.size(); ++h) {
     bool has_active = false;
     for (const int point : handles[h]) {
       if (point < 0 || point >= n)
-        refuse("handle " + std::to_string(h) + " has point " + std::to_string(point) + ", must lie in [0, " +
-               std::to_string(n) + ")");
+        refuse(weights_name, "handle " + std::to_string(h) + " has point " + std::to_string(point) +
+                                 ", must lie in [0, " + std::to_string(n) + ")");
       const int i = laplacian.representative[point];
       if (components.of[i] < 0) continue;
       has_active = true;
       if (of[i] >= 0 && of[i] != static_cast<int>(h))
-        refuse("point " + std::to_string(point) + " is of handle " + std::to_string(of[i]) + " and of handle " +
-               std::to_string(h) + ", must be of one");
+        refuse(weights_name, "point " + std::to_string(point) + " is of handle " + std::to_string(of[i]) +
+                                 " and of handle " + std::to_string(h) + ", must be of one");
       of[i] = static_cast<int>(h);
     }
     if (has_active) continue;
     std::string why;
     if (!handles[h].empty())
       why = ": " + whyOnNone("point", handles[h][0], laplacian.status[laplacian.representative[handles[h][0]]]);
-    refuse("handle " + std::to_string(h) + " has no active point, must have at least one" + why);
+    refuse(weights_name, "handle " + std::to_string(h) + " has no active point, must have at least one" + why);
   }
   return of;
 }
@@ -72,7 +69,7 @@ Eigen::MatrixXd boundedBiharmonicWeights(const Laplacian& laplacian, const std::
   const Stopwatch watch;
   checkSizes(weights_name, laplacian);
   if (options.max_iterations < 1)
-    refuse("max_iterations = " + std::to_string(options.max_iterations) + ", must be at least 1");
+    refuse(weights_name, "max_iterations = " + std::to_string(options.max_iterations) + ", must be at least 1");
   const Components components = findComponents(laplacian);
   const std::vector<int> handle = handlesOfPoints(laplacian, components, handles);
   const Workers workers(options.solver.threads, options.solver.progress);

@@ -7,6 +7,12 @@
 
 namespace tufted {
 
+/// @param function the public function that was called
+/// @throws InvalidInput always
+[[noreturn]] inline void refuse(const std::string& function, const std::string& why) {
+  throw InvalidInput(function + ": " + why);
+}
+
 /// Checks that `count` is at most `most`.
 /// @param function the public function that was called
 /// @param what is counted, in the plural

@@ -20,10 +20,10 @@ constexpr double largest_distance = 1e152;
 
 /// Number of sampled values, whose median is near that of all; one pass then leaves a tenth of all values to choose
 /// from.
-constexpr std::int64_t samples = 2048;
+constexpr std::int64_t sampled_values = 2048;
 /// The median of all is searched between the samples this many places before and after their median, four standard
 /// deviations of its place; if it is not there, all values are searched.
-constexpr std::ptrdiff_t beside = 100;
+constexpr std::ptrdiff_t places_beside = 100;
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 struct Extent {
@@ -76,13 +76,13 @@ Within valuesWithin(double least, double most, std::int64_t n, const ValueOf& va
 template <class ValueOf>
 double medianOfAll(std::int64_t n, const ValueOf& valueOf, const Workers& workers) {
   Buffer<double> some;
-  for (std::int64_t i = 0; i < n; i += std::max<std::int64_t>(1, n / samples))
+  for (std::int64_t i = 0; i < n; i += std::max<std::int64_t>(1, n / sampled_values))
     if (const double value = valueOf(i); !std::isnan(value)) some.push_back(value);
   std::sort(some.begin(), some.end());
   const auto middle = some.begin() + std::ssize(some) / 2;
-  const bool has_bounds = std::ssize(some) > 2 * beside + 1;
-  Within found = valuesWithin(has_bounds ? middle[-beside] : -infinity, has_bounds ? middle[beside] : infinity, n,
-                              valueOf, workers);
+  const bool has_bounds = std::ssize(some) > 2 * places_beside + 1;
+  Within found = valuesWithin(has_bounds ? middle[-places_beside] : -infinity,
+                              has_bounds ? middle[places_beside] : infinity, n, valueOf, workers);
   const std::size_t rank = (found.below + found.values.size() + found.above) / 2;
   // The samples misjudged the bounds, so all values are searched.
   if (rank < found.below || rank >= found.below + found.values.size())

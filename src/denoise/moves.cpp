@@ -24,7 +24,7 @@ constexpr double most_excess = 2;
 /// With 1 eigenvalues of real shapes are off by 3.5e-2, with 2 by 3.3e-2; those of a sphere by 1.9e-3 and 2.6e-3.
 constexpr double taken_back = 2;
 /// A sum of weights below this is rounding, and the point stays.
-constexpr double least_weight = 1e-12;
+constexpr double least_weight_sum = 1e-12;
 
 /// Moves points onto the weighted mean of the surfaces around them.
 class Mover {
@@ -57,7 +57,7 @@ class Mover {
       move += weight * way * normal;
       weights += weight;
     }
-    if (weights > least_weight)
+    if (weights > least_weight_sum)
       move /= weights;
     else
       move.setZero();

@@ -50,7 +50,7 @@ constexpr double white_error = 1.3;
 /// If residuals exceed the noise by more than this many standard deviations there is a crease, and a smaller fit is
 /// taken. With 2 a cube with 1 % noise has errors of 1.4e-2 instead of 1.2e-2.
 constexpr double by_chance = 1;
-constexpr double unknown = std::numeric_limits<double>::infinity();
+constexpr double unknown_error = std::numeric_limits<double>::infinity();
 
 /// Change of the height of the surface over a centre from the next smaller size to this one.
 double change(const LocalSurface& surface, int size) {
@@ -78,7 +78,7 @@ class Pool {
       sum += value(surface);
       ++count;
     }
-    return count < least_fits ? unknown : sum / count;
+    return count < least_fits ? unknown_error : sum / count;
   }
   /// The mean squared error of the predictions by fits of a size.
   double error(int size) const {

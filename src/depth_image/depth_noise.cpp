@@ -17,7 +17,7 @@ namespace tufted {
 namespace {
 
 /// Number of pixels at which noise is measured; more give the same result.
-constexpr std::int64_t samples = 20000;
+constexpr std::int64_t noise_samples = 20000;
 /// A relative change of the inverse depth between two pixels above this is a jump, which tells nothing about noise.
 constexpr double jump = 0.04;
 /// A change of the inverse depth below this many standard deviations of the noise is no jump in any case: far walls
@@ -42,13 +42,13 @@ constexpr std::size_t least_groups = 3;
 constexpr double least_power = 0.6;
 /// If the fitted law misses the noise of the groups by more than this, relatively, it is not used: right ones miss it
 /// by less than 0.03, coarse depths by 0.35 and more. A wall in steps, taken for timed light, has 18 % too much area.
-constexpr double most_misfit = 0.2;
+constexpr double max_relative_misfit = 0.2;
 
 // Coarse depths with steps farther than five pixels apart.
 
 /// In a row of five pixels around a step the other changes differ by at most this share of the step; at a crease by
 /// more.
-constexpr double alike = 0.3;
+constexpr double alike_changes = 0.3;
 /// The values between steps are exact but for rounding if the other changes differ by at most this share of the step:
 /// rays 0.01 rad apart make 0.019.
 constexpr double same = 0.02;
@@ -62,8 +62,6 @@ constexpr double least_steps = 0.01;
 /// 0.08.
 constexpr double most_spread = 0.25;
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 /// Inverse depths of five pixels in a row.
 using Five = std::array<double, 5>;
 
@@ -74,7 +72,7 @@ RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const
     const int p = grid.rank[pixel];
     return p < 0 ? unknown : 1 / grid.depthOf(points.row(p));
   };
-  const std::int64_t pixels = std::ssize(grid.rank), stride = sampleStride(pixels, samples, grid.columns);
+  const std::int64_t pixels = std::ssize(grid.rank), stride = sampleStride(pixels, noise_samples, grid.columns);
   const std::int64_t first = 2 * std::int64_t{grid.columns},
                      count = std::max<std::int64_t>(0, (pixels - 2 * first + stride - 1) / stride);
   // On rings only rows are used, because points of a column differ in azimuth.
@@ -161,13 +159,13 @@ Groups groupsOf(const RawBuffer<Five>& fives) {
   return groups;
 }
 
-struct Level {
+struct NoiseAtDepth {
   double inverse;  ///< mean inverse depth
   double noise;
   double weight;
 };
 
-Level levelOf(std::span<const Five> group) {
+NoiseAtDepth levelOf(std::span<const Five> group) {
   double sum = 0;
   for (const Five& w : group) sum += w[2];
   const auto count = static_cast<double>(group.size());
@@ -175,9 +173,9 @@ Level levelOf(std::span<const Five> group) {
 }
 
 /// The power of the inverse depth with which noise grows: the slope of a line through their logarithms.
-double powerOf(const Buffer<Level>& levels) {
+double powerOf(const Buffer<NoiseAtDepth>& levels) {
   double all = 0, x = 0, y = 0, xx = 0, xy = 0;
-  for (const Level& level : levels) {
+  for (const NoiseAtDepth& level : levels) {
     const double a = std::log(level.inverse), b = std::log(level.noise);
     all += level.weight;
     x += level.weight * a;
@@ -189,9 +187,9 @@ double powerOf(const Buffer<Level>& levels) {
 }
 
 /// The sum of both laws that fits the levels best, by relative errors; nothing if it misses them.
-std::optional<RangeNoise> fitOf(const Buffer<Level>& levels) {
+std::optional<RangeNoise> fitOf(const Buffer<NoiseAtDepth>& levels) {
   double aa = 0, ab = 0, bb = 0, a = 0, b = 0;
-  for (const Level& level : levels) {
+  for (const NoiseAtDepth& level : levels) {
     const double of_inverse = 1 / level.noise, of_depth = level.inverse * level.inverse / level.noise;
     aa += level.weight * of_inverse * of_inverse;
     ab += level.weight * of_inverse * of_depth;
@@ -203,11 +201,11 @@ std::optional<RangeNoise> fitOf(const Buffer<Level>& levels) {
   RangeNoise noise{(bb * a - ab * b) / determinant, (aa * b - ab * a) / determinant};
   if (noise.of_inverse < 0) noise = {0, b / bb};
   double misfit = 0, weight = 0;
-  for (const Level& level : levels) {
+  for (const NoiseAtDepth& level : levels) {
     misfit += level.weight * std::pow(noise.atInverse(level.inverse) / level.noise - 1, 2);
     weight += level.weight;
   }
-  if (!(noise.of_depth >= 0 && misfit <= most_misfit * most_misfit * weight)) return std::nullopt;
+  if (!(noise.of_depth >= 0 && misfit <= max_relative_misfit * max_relative_misfit * weight)) return std::nullopt;
   return noise;
 }
 
@@ -232,7 +230,8 @@ double roundingOf(std::span<const Five> fives, double noise) {
     if (std::isnan(w[0])) continue;
     ++count;
     const MiddleStep step = middleStep(w);
-    if (!(step.size > likely_jump * noise && step.size <= jump * w[2] && step.unlike <= alike * step.size)) continue;
+    if (!(step.size > likely_jump * noise && step.size <= jump * w[2] && step.unlike <= alike_changes * step.size))
+      continue;
     steps.push_back(step.size);
     same_count += step.unlike <= same * step.size ? 1 : 0;
   }
@@ -251,7 +250,7 @@ RangeNoise rangeNoise(const PixelGrid& grid, const PointsView& points, const Wor
   const RawBuffer<Five> fives = takeFives(grid, points, workers);
   const Groups groups = groupsOf(fives);
   double of_inverse = 0;
-  Buffer<Level> levels(groups.size(), Level{});
+  Buffer<NoiseAtDepth> levels(groups.size(), NoiseAtDepth{});
   // The noise of all rows first, because it takes as long as all groups together.
   workers.forBlocks("windows", std::ssize(levels) + 1, 1, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t i = begin; i < end; ++i) {
@@ -264,8 +263,8 @@ RangeNoise rangeNoise(const PixelGrid& grid, const PointsView& points, const Wor
   });
   const double rounding = roundingOf(fives, of_inverse);
   if (rounding > 0) return {std::max(of_inverse, rounding), 0};
-  std::erase_if(levels, [](const Level& level) { return level.weight == 0; });
-  const auto isKnown = [](const Level& level) { return level.noise > 0; };
+  std::erase_if(levels, [](const NoiseAtDepth& level) { return level.weight == 0; });
+  const auto isKnown = [](const NoiseAtDepth& level) { return level.noise > 0; };
   if (levels.size() >= least_groups && std::all_of(levels.begin(), levels.end(), isKnown) &&
       powerOf(levels) > least_power)
     if (const auto noise = fitOf(levels)) return *noise;

@@ -8,9 +8,6 @@
 namespace tufted {
 namespace {
 
-/// Pixels farther away than this many longest edges of the star, in pixels, do not count as beyond a gap, as in
-/// stars/boundary.cpp.
-constexpr double farthest = 2;
 constexpr int least_reach = 3;  // least reach of the search for pixels in gaps: that of a window
 /// Greatest reach: that of the largest star of an exact image.
 constexpr int most_reach = 12;
@@ -26,7 +23,7 @@ class ImageBoundaryFinder {
     const bool is_mirrored = isMirrored(p);
     const auto direction = [&](int q) { return directionOf(stepTo(p, q), is_mirrored); };
     findGaps(stars_, p, direction, gaps);
-    const int longest = static_cast<int>(std::ceil(farthest * std::sqrt(longestStep(p))));
+    const int longest = static_cast<int>(std::ceil(farthest_beyond * std::sqrt(longestStep(p))));
     const int reach = std::clamp(longest, least_reach, most_reach);
     bool is_rim = false;
     for (const Gap& gap : gaps) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "depth_image/surface_windows.h"
 
@@ -13,7 +12,6 @@ namespace {
 /// A slope is ignored if the inverse range changes by more than this share per pixel; a road seen at 1.7 degrees by
 /// rings 0.4 degrees apart has it.
 constexpr double steepest_slope = 0.25;
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A step is one of the steps down (to a later pixel) or the inverse of one. In a window it is reached over some pixels
 /// one ring further in.

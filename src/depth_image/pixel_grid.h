@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 
 #include "base/buffer.h"
 #include "base/parallel.h"
@@ -14,6 +15,8 @@
 #include "neighbors/scan/ranked_scan.h"
 
 namespace tufted {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< depth of a pixel without a point
 
 /// The point in each pixel of a depth image (step 1 in section 28 of docs/algorithm.md). Rows and columns without any
 /// point are left out, so that an image of which every fourth row and column was kept is as good as a whole one. Around

@@ -11,9 +11,9 @@ namespace tufted {
 namespace {
 
 /// Noise whose variance is below this share of the squared spacing does nothing to L and is not smoothed.
-constexpr double harmless = 1e-4;
+constexpr double harmless_noise = 1e-4;
 /// Noise below this share of the inverse depth is rounding, as from a sensor far away, and is not smoothed.
-constexpr double rounding = 1e-10;
+constexpr double noise_rounding = 1e-10;
 /// A fit is rejected if the variance of its residuals exceeds this many variances of the noise. With 1.5 an office has
 /// 67 instead of 68 % of its triangles from all three corners: neighbouring pixels of real cameras have the same noise.
 constexpr double most_misfit = 3;
@@ -115,7 +115,7 @@ std::optional<SmoothedRange> fitAtEdge(const PixelRows& ranges, std::uint64_t ar
 }  // namespace
 
 bool needsSmoothing(double inverse_range, double noise, double spacing_squared) {
-  return noise * noise > harmless * spacing_squared && noise > rounding * inverse_range;
+  return noise * noise > harmless_noise * spacing_squared && noise > noise_rounding * inverse_range;
 }
 
 std::optional<SmoothedRange> smoothedInverseDepth(const PixelRows& ranges, std::uint64_t around,

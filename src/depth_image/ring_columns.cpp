@@ -19,7 +19,7 @@ constexpr int least_rings = 16;
 constexpr int most_rows = 4096;
 /// Greatest number of pixels per point: rings that cover less than a sixteenth of a turn would leave the rest of the
 /// image empty.
-constexpr int most_pixels = 16;
+constexpr int most_pixels_per_point = 16;
 /// Least number of columns: the widest window has 49 and must not meet itself.
 constexpr int least_columns = 64;
 /// Greatest angle between rings, in rad: wider windows reach around the corners of a room. With noise of 2 cm normals
@@ -186,7 +186,8 @@ std::optional<RingImage> columnsOfRings(RankedScan scan, const PointsView& point
   const double step = azimuthStep(shots);
   if (!(step > 0) || ring_step > most_stretch * step || !areSeen(scan, points, shots)) return std::nullopt;
   const double columns = 2 * std::numbers::pi / step;
-  if (columns < least_columns || columns * rows > most_pixels * static_cast<double>(shots.size())) return std::nullopt;
+  if (columns < least_columns || columns * rows > most_pixels_per_point * static_cast<double>(shots.size()))
+    return std::nullopt;
   Buffer<RingFit> fits(static_cast<std::size_t>(shots.rings()));
   workers.forBlocks("windows", shots.rings(), 1, [&](std::int64_t begin, std::int64_t end, int) {
     for (int ring = static_cast<int>(begin); ring < end; ++ring) fits[ring] = placeRing(shots, ring, step, scan);

@@ -21,9 +21,9 @@ constexpr std::array<int, 4> strides = {3, SmoothedRanges::widest_stride, 5, 2};
 /// Values are not smoothed further if their variance is below this share of the squared spacing, noise of 1/50 of it.
 /// With 1/20 normals are off by 0.17 instead of 0.07 degrees, with 1/100 a wall behind a ball by 0.64 instead of 0.53
 /// mm.
-constexpr double harmless = 0.0004;
+constexpr double harmless_variance = 0.0004;
 /// Number of sampled packets of eight pixels from which the remaining noise is measured; 2,000 give the same.
-constexpr std::int64_t samples = 500;
+constexpr std::int64_t sampled_packets = 500;
 /// Quantile of the residual variances that is only noise, as half of the windows may hold a crease.
 constexpr double quiet = 0.25;
 /// Quantile of the residual variances that shows the steps of a coarse depth, which most windows of a terrace do not
@@ -133,7 +133,7 @@ class RangeSmoother {
   Samples takeSamples() const {
     const int in_row = (smoothed_.columns - 2 * PixelGrid::margin + kernel_packet - 1) / kernel_packet;
     const std::int64_t packets = std::int64_t{in_row} * (smoothed_.rows - 2 * PixelGrid::margin);
-    const std::int64_t step = sampleStride(packets, samples, in_row);
+    const std::int64_t step = sampleStride(packets, sampled_packets, in_row);
     Samples taken;
     for (Buffer<double>* const values : {&taken.left, &taken.before})
       values->reserve(static_cast<std::size_t>((packets / step + 1) * kernel_packet));
@@ -168,7 +168,8 @@ class RangeSmoother {
     std::array<double, kernel_packet> slope, tolerance;
     for (int lane = 0; lane < kernel_packet; ++lane) {
       const double spacing_squared = smoothed_.spacing_squared[at + lane];
-      packet.is_wanted |= static_cast<unsigned>(smoothed_.variance[at + lane] > harmless * spacing_squared) << lane;
+      packet.is_wanted |= static_cast<unsigned>(smoothed_.variance[at + lane] > harmless_variance * spacing_squared)
+                          << lane;
     }
     if (packet.is_wanted == 0) return packet;
     for (int lane = 0; lane < kernel_packet; ++lane) {

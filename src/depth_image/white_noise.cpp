@@ -13,12 +13,12 @@ namespace tufted {
 namespace {
 
 /// Number of sampled pixels, of which at least a quarter is tested: the share of pairs is then off by 0.006.
-constexpr std::int64_t samples = 32000;
+constexpr std::int64_t tried_pixels = 32000;
 /// Only this share of the pixels is tested, those with the least residual variance. Where shape left more, neighbours
 /// lie on one side of the surface: of a relief of squares 20 pixels wide and 4 sigma high all pixels have 0.54.
-constexpr double quiet = 0.25;
+constexpr double tested_share = 0.25;
 /// Variances that differ by less than this factor count as equal: most fits have exactly the variance of the noise.
-constexpr double alike = 1 + 1e-9;
+constexpr double equal_variances = 1 + 1e-9;
 /// Noise is white if the share of pairs of neighbours on one side of the surface is between these: white noise has 0.46
 /// to 0.50, real cameras have 0.62 to 0.73, coarse depths 0.74 and more, waves of 10 and 12 pixels 0.61 and 0.57.
 constexpr double least_on_one_side = 0.45, most_on_one_side = 0.56;
@@ -54,7 +54,7 @@ struct Pairs {
 bool changesSidesFreely(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,
                         const RangeNoise& noise, const Workers& workers) {
   const std::int64_t end = std::ssize(grid.rank) - grid.columns;
-  const std::int64_t stride = sampleStride(end, samples, grid.columns);
+  const std::int64_t stride = sampleStride(end, tried_pixels, grid.columns);
   // relative variance of each sample
   RawBuffer<double> variance(static_cast<std::size_t>((end + stride - 1) / stride));
   const auto forSamples = [&](const auto& visit) {
@@ -70,7 +70,7 @@ bool changesSidesFreely(const PixelGrid& grid, const PointsView& points, const S
   variances.reserve(variance.size());
   std::copy_if(variance.begin(), variance.end(), std::back_inserter(variances), [](double of) { return of > 0; });
   if (variances.empty()) return false;
-  const double most_variance = quantileOf(variances, quiet) * alike;
+  const double most_variance = quantileOf(variances, tested_share) * equal_variances;
 
   Buffer<Pairs> pairs_of(workers.count());
   forSamples([&](std::int64_t first, std::int64_t last, int worker) {

@@ -51,7 +51,7 @@ void sumTerms(Buffer<Term>& terms, int begin, SumScratch& scratch) {
 }
 
 /// Memory of one worker.
-struct WorkerState {
+struct RowWorker {
   Buffer<int> numbers;   ///< the mixed points of a block
   Buffer<double> count;  ///< weight of each triangle of a star, by entry
   TriangleFanBuffer fans;
@@ -69,7 +69,7 @@ class TermReader {
  public:
   /// @param mass by rank; masses of the block's points are added to
   TermReader(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, double scale, std::size_t block,
-             RawBuffer<double>& mass, WorkerState& state)
+             RawBuffer<double>& mass, RowWorker& state)
       : stars_(glued.stars),
         length_(glued.length),
         cover_(glued.cover),
@@ -165,7 +165,7 @@ class TermReader {
   const double scale_;
   const std::size_t block_;
   RawBuffer<double>& mass_;
-  WorkerState& state_;
+  RowWorker& state_;
 };
 
 /// Stores edges at both ends.
@@ -199,12 +199,12 @@ Rows summedRows(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, bool
                 RawBuffer<double>& mass, const Workers& workers, Report& report) {
   const int n = glued.stars.size();
   const std::size_t blocks = blockOf(n + block_size - 1);
-  Buffer<WorkerState> states(workers.count());
+  Buffer<RowWorker> states(workers.count());
   Buffer<Buffer<Term>> edges(blocks);  // each at its smaller end
   BlockExchange<Term> terms(blocks), reversed(blocks);
 
   workers.forBlocks("assemble", std::ssize(edges), 1, [&](std::int64_t block, std::int64_t, int worker) {
-    WorkerState& state = states[worker];
+    RowWorker& state = states[worker];
     TermReader(glued, mixed, scale, block, mass, state).read();
     sumTerms(state.own, static_cast<int>(block) * block_size, state.sums);
     edges[block].assign(state.own.begin(), state.own.end());
@@ -215,7 +215,7 @@ Rows summedRows(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, bool
   if (!keep_cover) glued.cover.dropFaces();
 
   workers.forBlocks("assemble", std::ssize(edges), 1, [&](std::int64_t block, std::int64_t, int worker) {
-    WorkerState& state = states[worker];
+    RowWorker& state = states[worker];
     state.own.assign(edges[block].begin(), edges[block].end());
     terms.receive(block, [&](const Term& term) {
       if (term.low == term.high)
@@ -233,7 +233,7 @@ Rows summedRows(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, bool
   });
   reversed.deliver();
 
-  for (const WorkerState& state : states) report.degenerate_faces += state.degenerate_faces;
+  for (const RowWorker& state : states) report.degenerate_faces += state.degenerate_faces;
   return fileEdges(n, edges, reversed, workers);
 }
 

@@ -10,7 +10,7 @@
 namespace tufted::io {
 namespace {
 
-using Names = std::map<std::string, std::string, std::less<>>;
+using PlainNames = std::map<std::string, std::string, std::less<>>;
 
 const std::set<std::string, std::less<>> colors = {"red", "green", "blue"};
 
@@ -24,7 +24,7 @@ std::string lettersOf(std::string_view name) {
   return lower(letters);
 }
 
-void addAxes(Names& names, const std::array<const char*, 3>& axes, const std::vector<std::string>& letters,
+void addAxes(PlainNames& names, const std::array<const char*, 3>& axes, const std::vector<std::string>& letters,
              const std::vector<std::string>& numbers) {
   for (std::size_t c = 0; c < 3; ++c) {
     const std::string axis(1, "xyz"[c]);
@@ -38,8 +38,8 @@ void addAxes(Names& names, const std::array<const char*, 3>& axes, const std::ve
 
 /// Maps lettersOf() of names by PCL, PDAL, CloudCompare, MeshLab, ParaView, VeloView and surveyors to ours. ParaView
 /// and VeloView append a colon and a number to the values of one array.
-Names makeNames() {
-  Names names;
+PlainNames makeNames() {
+  PlainNames names;
   std::istringstream own(
       "rgb rgba red green blue alpha intensity ring azimuth label classification gps_time return_number "
       "number_of_returns scan_direction edge_of_flight_line scan_angle_rank scan_angle scanner_channel "
@@ -65,7 +65,7 @@ Names makeNames() {
 
 /// Our name for a name in a file; empty if it is not known.
 std::string knownName(std::string_view name) {
-  static const Names names = makeNames();
+  static const PlainNames names = makeNames();
   std::string letters = lettersOf(name);
   if (letters.starts_with("scalar")) letters.erase(0, 6);  // prefix of CloudCompare's fields in PLY
   const auto known = names.find(letters);

@@ -20,7 +20,7 @@ constexpr double margin = 20;   ///< around the lines, in pixels
 constexpr double legend = 180;  ///< width of the legend and least width of the drawing; fits eight digits
 constexpr int most_named = 20;  ///< values in the legend; more would be higher than the lines
 /// From the least to the greatest value: blue, green, orange, which differ in print without colours as well.
-constexpr std::array<std::array<double, 3>, 3> colors = {{{31, 78, 156}, {42, 157, 120}, {233, 138, 21}}};
+constexpr std::array<std::array<double, 3>, 3> line_colors = {{{31, 78, 156}, {42, 157, 120}, {233, 138, 21}}};
 
 /// A length of pixels as text, to a hundredth.
 std::string text(double pixels) {
@@ -39,7 +39,8 @@ std::string colorAt(double share) {
   const std::size_t from = share < 0.5 ? 0 : 1;
   std::string color = "rgb(";
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const double level = std::lerp(colors[from][channel], colors[from + 1][channel], 2 * share - double(from));
+    const double level =
+        std::lerp(line_colors[from][channel], line_colors[from + 1][channel], 2 * share - double(from));
     color.append(channel > 0 ? "," : "").append(std::to_string(std::lround(level)));
   }
   return color + ")";

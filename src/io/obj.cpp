@@ -14,7 +14,7 @@
 namespace tufted::io {
 namespace {
 
-constexpr LineScanner::Syntax syntax = {.comment = '#', .continued = true};
+constexpr LineScanner::Syntax obj_syntax = {.comment = '#', .continued = true};
 
 /// Keywords of lines that are skipped (Wavefront's Appendix B1, and keywords of older versions).
 constexpr std::array others = {
@@ -28,7 +28,7 @@ constexpr std::array others = {
 class ObjReader {
  public:
   ObjReader(const std::filesystem::path& path, std::string_view text, const Progress& progress)
-      : path_(path), scanner_(path, text, syntax), progress_(progress) {}
+      : path_(path), scanner_(path, text, obj_syntax), progress_(progress) {}
 
   Geometry read() {
     while (scanner_.next()) {
@@ -135,7 +135,7 @@ class ObjReader {
 
 bool looksLikeObj(std::string_view bytes) {
   constexpr std::array keywords = {"v", "vn", "vt", "f", "o", "g", "mtllib", "usemtl", "s"};
-  const auto tokens = firstTokens(bytes, syntax);
+  const auto tokens = firstTokens(bytes, obj_syntax);
   return !tokens.empty() && std::find(keywords.begin(), keywords.end(), lower(tokens[0])) != keywords.end();
 }
 

@@ -14,7 +14,7 @@
 namespace tufted::io {
 namespace {
 
-constexpr LineScanner::Syntax syntax = {.comment = '#', .comment_anywhere = true};
+constexpr LineScanner::Syntax off_syntax = {.comment = '#', .comment_anywhere = true};
 
 /// The first word of a file: the keyword and, if no blank separates them as in ModelNet40, the number of vertices.
 struct FirstWord {
@@ -130,12 +130,12 @@ class AsciiOff {
 }  // namespace
 
 bool looksLikeOff(std::string_view bytes) {
-  const auto tokens = firstTokens(bytes, syntax);
+  const auto tokens = firstTokens(bytes, off_syntax);
   return !tokens.empty() && parseFirstWord(tokens[0]).has_value();
 }
 
 Geometry readOff(const std::filesystem::path& path, std::string_view text, const Progress& progress) {
-  LineScanner scanner(path, text, syntax);
+  LineScanner scanner(path, text, off_syntax);
   const auto word = scanner.next() ? parseFirstWord(scanner.tokens()[0]) : std::nullopt;
   if (!word) scanner.refuse("the header does not begin with OFF, COFF, NOFF, STOFF or 4OFF");
   const bool binary = scanner.tokens().size() > 1 && lower(scanner.tokens()[1]) == "binary";

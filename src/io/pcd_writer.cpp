@@ -43,7 +43,7 @@ void addPacked(PointTable& table, const Color& color) {
   table.add({color.channels[3] ? "rgba" : "rgb", FieldType::uint32, 1, made, 4});
 }
 
-std::string header(const PointTable& table, const Geometry& geometry, const std::vector<Convention>& conventions) {
+std::string pcdHeader(const PointTable& table, const Geometry& geometry, const std::vector<Convention>& conventions) {
   std::string fields = "FIELDS", sizes = "SIZE", types = "TYPE", counts = "COUNT";
   for (const PointColumn& column : table.columns()) {
     fields.append(" ").append(column.name);
@@ -73,7 +73,7 @@ void writePcd(const OutputPath& to, const Laplacian& laplacian, const Geometry& 
   };
   const PointTable table = pointTable(laplacian, geometry, M, {"normal_x", "normal_y", "normal_z"}, add_field);
   OutputFile file(to);
-  file.write(header(table, geometry, conventions));
+  file.write(pcdHeader(table, geometry, conventions));
   table.write(file);
   file.close();
 }

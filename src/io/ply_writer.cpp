@@ -30,7 +30,7 @@ void addField(PointTable& table, const Field& field) {
                field.count * sizeOf(type)});
 }
 
-std::string header(const PointTable& table, const Geometry& geometry, const std::vector<Convention>& conventions) {
+std::string plyHeader(const PointTable& table, const Geometry& geometry, const std::vector<Convention>& conventions) {
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   text += conventionLines(conventions, "comment tufted ", true);
   // In obj_info, because floats in PCL's element `camera` would round the pose of a georeferenced scan.
@@ -53,7 +53,7 @@ void writePly(const OutputPath& to, const Laplacian& laplacian, const Geometry& 
               const std::vector<Convention>& conventions) {
   const PointTable table = pointTable(laplacian, geometry, M, {"nx", "ny", "nz"}, addField);
   OutputFile file(to);
-  file.write(header(table, geometry, conventions));
+  file.write(plyHeader(table, geometry, conventions));
   table.write(file);
   if (geometry.is_mesh) {
     const std::uint8_t corners = 3;

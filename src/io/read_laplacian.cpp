@@ -17,17 +17,17 @@
 namespace tufted {
 namespace {
 
-using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-Report readReport(const Json& json, const Path& path) {
+Report readReport(const nlohmann::json& json, const Path& path) {
   Report report;
   visitNumbers(report, [&](const char* name, auto& value) { io::readMember(json, name, path, value); });
   if (!json.contains("star_masses")) report.star_masses = report.active;  // versions without this member
-  for (const Json& stage : json.value("stages", Json::array())) {
+  for (const nlohmann::json& stage : json.value("stages", nlohmann::json::array())) {
     if (!stage.is_object()) io::refuse(path, "has a stage that is no object");
     StageCost& cost = report.stages.emplace_back();
-    if (const Json name = stage.value("name", Json()); name.is_string()) cost.name = name.get<std::string>();
+    if (const nlohmann::json name = stage.value("name", nlohmann::json()); name.is_string())
+      cost.name = name.get<std::string>();
     io::readMember(stage, "seconds", path, cost.seconds);
     io::readMember(stage, "bytes", path, cost.bytes);
   }
@@ -36,8 +36,8 @@ Report readReport(const Json& json, const Path& path) {
 
 /// Reads the kind, which in reports of older versions follows from the options of the build, if present.
 /// @param needed whether an unknown kind is an error, because the scale of the cover depends on it
-Kind readKind(const Json& json, bool needed, const Path& path) {
-  const Json kind = json.value("kind", Json());
+Kind readKind(const nlohmann::json& json, bool needed, const Path& path) {
+  const nlohmann::json kind = json.value("kind", nlohmann::json());
   if (kind == "cloud") return Kind::cloud;
   if (kind == "mesh") return Kind::mesh;
   if (!kind.is_null()) io::refuse(path, "is of the kind " + io::quote(kind.dump()) + ", must be cloud or mesh");
@@ -48,8 +48,8 @@ Kind readKind(const Json& json, bool needed, const Path& path) {
 }
 
 /// Reads the orientation of the frames; arbitrary in reports of older versions.
-Orientation readOrientation(const Json& json, const Path& path) {
-  const Json orientation = json.value("orientation", Json());
+Orientation readOrientation(const nlohmann::json& json, const Path& path) {
+  const nlohmann::json orientation = json.value("orientation", nlohmann::json());
   if (orientation.is_null()) return Orientation::arbitrary;
   for (std::size_t k = 0; k < io::orientation_names.size(); ++k)
     if (orientation == io::orientation_names[k]) return static_cast<Orientation>(k);
@@ -84,7 +84,7 @@ std::vector<ComponentEdges> readEdges(const io::ResultFolder& folder, const Lapl
 Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cover) {
   const io::ResultFolder folder(dir);
   const Path report_path = folder.reportPath();
-  const Json& json = folder.report();
+  const nlohmann::json& json = folder.report();
   if (!json.contains("report") || !json["report"].is_object()) io::refuse(report_path, "is no report of a Laplacian");
   const Path matrix_path = folder.pathOf("L.npz"), mass_path = folder.pathOf("M.npy"),
              status_path = folder.pathOf("status.npy"), representative_path = folder.pathOf("representative.npy"),
@@ -111,9 +111,9 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   if (folder.has(noise_name)) laplacian.noise = io::readNoise(folder.pathOf(noise_name), n);
   laplacian.L = matrix.read();
   if (takes_cover) laplacian.setCover(io::readCover(folder.pathOf("cover.npz"), static_cast<int>(n)));
-  const Json written = json.value("write_options", Json::object());
-  if (written.is_object() && written.value("sign", Json()) == "igl") laplacian.L = -laplacian.L;
-  if (written.is_object() && written.value("dummy", Json()) == true) removeDummies(laplacian);
+  const nlohmann::json written = json.value("write_options", nlohmann::json::object());
+  if (written.is_object() && written.value("sign", nlohmann::json()) == "igl") laplacian.L = -laplacian.L;
+  if (written.is_object() && written.value("dummy", nlohmann::json()) == true) removeDummies(laplacian);
   if (laplacian.report.star_masses == 0) laplacian.cover_areas = laplacian.M;
   return laplacian;
 }

@@ -16,7 +16,7 @@
 namespace tufted::io {
 namespace {
 
-constexpr LineScanner::Syntax syntax = {
+constexpr LineScanner::Syntax xyz_syntax = {
     .separators = " \t\r\f\v,;\"", .delimiters = ",;", .comment = '#', .line_comment = "//"};
 
 /// Rows with the same number of values.
@@ -108,7 +108,7 @@ void narrowColors(Columns& columns) {
 
 bool looksLikeXyz(std::string_view bytes) {
   if (const TextHeading heading = readHeading(bytes); heading.end > 0) return namePoints(heading.names);
-  const auto tokens = firstTokens(bytes, syntax);
+  const auto tokens = firstTokens(bytes, xyz_syntax);
   double value = 0;
   return (tokens.size() == 1 || tokens.size() >= 3) &&
          std::all_of(tokens.begin(), tokens.end(), [&](std::string_view token) { return parseNumber(token, value); });
@@ -116,7 +116,7 @@ bool looksLikeXyz(std::string_view bytes) {
 
 Geometry readXyz(const std::filesystem::path& path, std::string_view text) {
   TextHeading heading = readHeading(text);
-  LineScanner scanner(path, text, syntax);
+  LineScanner scanner(path, text, xyz_syntax);
   const Numbers numbers = readNumbers(scanner, heading);
   Columns columns;
   columns.fields.resize(numbers.columns, {"", FieldType::float64, 1, {}});

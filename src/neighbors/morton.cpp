@@ -46,12 +46,12 @@ constexpr std::size_t buckets = std::size_t{1} << digit_bits;
 /// The lowest bit that the radix sort uses. Lower bits distinguish so few points that two more passes would cost more
 /// than comparisons.
 constexpr int lowest_bit = 22;
-constexpr std::int64_t least_part = 1 << 16;  // keys per thread at least
+constexpr std::int64_t least_keys_per_thread = 1 << 16;
 
 /// Stable parallel radix sort of the keys by the bits of their codes from lowest_bit on, least significant digit first.
 void sortByHighBits(RawBuffer<Key>& keys, const Workers& workers) {
   const std::int64_t size = std::ssize(keys);
-  const std::int64_t part = std::max(least_part, (size + workers.count() - 1) / workers.count());
+  const std::int64_t part = std::max(least_keys_per_thread, (size + workers.count() - 1) / workers.count());
   const std::int64_t parts = (size + part - 1) / part;
   RawBuffer<Key> sorted(keys.size());
   Buffer<std::array<std::uint32_t, buckets>> place(static_cast<std::size_t>(parts));
@@ -79,7 +79,7 @@ void sortByRest(RawBuffer<Key>& keys, const Workers& workers, const Less& less) 
   const auto high = [&](std::int64_t i) { return keys[i].code >> lowest_bit; };
   const std::int64_t size = std::ssize(keys);
   Buffer<std::int64_t> start;  // starts of parts that consist of whole runs
-  for (std::int64_t i = 0; i < size; i += least_part) {
+  for (std::int64_t i = 0; i < size; i += least_keys_per_thread) {
     while (i > 0 && i < size && high(i) == high(i - 1)) ++i;
     start.push_back(i);
   }

@@ -22,7 +22,7 @@ constexpr double tolerance = 1e-11;  // relative to a diagonal or an area; all d
 constexpr double smallest_area = std::numeric_limits<double>::min();
 
 /// An edge of the cover that has no entry in L.
-struct Edge {
+struct MissingEdge {
   int low, high;
   double weight;
 };
@@ -44,7 +44,7 @@ class Assembly {
       for (int k = L_.outerIndexPtr()[j]; k < L_.outerIndexPtr()[j + 1]; ++k)
         if (L_.innerIndexPtr()[k] > j) visit(L_.innerIndexPtr()[k], j, weight_[k], L_.valuePtr()[k]);
     }
-    for (const Edge& edge : others_) visit(edge.high, edge.low, edge.weight, 0.0);
+    for (const MissingEdge& edge : others_) visit(edge.high, edge.low, edge.weight, 0.0);
   }
 
   /// Areas of the points, in the points' unit squared.
@@ -78,10 +78,11 @@ class Assembly {
   }
 
   void mergeOthers() {
-    std::stable_sort(others_.begin(), others_.end(),
-                     [](const Edge& a, const Edge& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+    std::stable_sort(others_.begin(), others_.end(), [](const MissingEdge& a, const MissingEdge& b) {
+      return std::tie(a.low, a.high) < std::tie(b.low, b.high);
+    });
     std::size_t merged = 0;
-    for (const Edge& edge : others_) {
+    for (const MissingEdge& edge : others_) {
       if (merged > 0 && others_[merged - 1].low == edge.low && others_[merged - 1].high == edge.high)
         others_[merged - 1].weight += edge.weight;
       else
@@ -92,7 +93,7 @@ class Assembly {
 
   const SparseMatrix& L_;
   std::vector<double> weight_;  ///< by entry of L, set below the diagonal
-  std::vector<Edge> others_;
+  std::vector<MissingEdge> others_;
   VectorXd area_;
   std::vector<std::uint8_t> is_coarse_;
 };

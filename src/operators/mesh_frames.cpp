@@ -23,7 +23,7 @@ namespace {
 constexpr const char* mesh_frames_name = "meshFrames";
 
 /// A triangle whose height is at most this part of its coordinates has a normal of rounding alone.
-constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double flat_height = 8 * std::numeric_limits<double>::epsilon();
 
 /// Gives vertices without a normal, as all of their triangles are flat, the moments and sums of their neighbours, ring
 /// by ring.
@@ -82,7 +82,7 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
     // The normal, as long as twice the area over `size`, as the area itself may underflow.
     const Eigen::RowVector3d normal = (u / size).cross(v / size) * size;
     const double weight = normal.stableNorm();
-    if (!(weight > rounding * coordinate)) continue;
+    if (!(weight > flat_height * coordinate)) continue;
     for (int k = 0; k < 3; ++k) {
       moments[triangles(f, k)] += normal.transpose() * (normal / weight);
       sums.row(triangles(f, k)) += normal;

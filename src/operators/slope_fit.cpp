@@ -18,7 +18,7 @@ constexpr double flat = 1e-10;
 constexpr double narrow = 1e-4;
 /// Maximum number of doublings of a narrow neighbourhood, to reach the next scan line; one of the neighbours in L gets
 /// a ring instead.
-constexpr int most_doublings = 3;
+constexpr int most_slope_doublings = 3;
 /// The nearest points are chosen among at least this many times their number, because rings are not circles.
 constexpr double gathered = 2.5;
 
@@ -136,7 +136,7 @@ const SlopeFit& SlopeFitter::fit(int p) {
   fit_.normal = frames_.normals.row(p);
   fit_.tangent = frames_.tangents.row(p);
   bool is_wide = false, has_more = true;
-  for (int doublings = 0; doublings <= most_doublings && has_more && !is_wide; ++doublings) {
+  for (int doublings = 0; doublings <= most_slope_doublings && has_more && !is_wide; ++doublings) {
     has_more = gather(p, doublings);
     fit_.is_widened = doublings > 0;
     const double scale = findEdges(p);

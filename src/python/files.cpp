@@ -71,7 +71,7 @@ Geometry readFile(const std::filesystem::path& path, const std::string& kind, bo
 }
 
 /// The members of a Geometry except `unread_bytes`, for pickle and copies.
-py::tuple stateOf(const Geometry& geometry) {
+py::tuple geometryState(const Geometry& geometry) {
   py::list fields;
   for (const Field& field : geometry.fields)
     fields.append(py::make_tuple(field.name, static_cast<int>(field.type), field.count,
@@ -188,7 +188,7 @@ void addFiles(py::module_& module) {
       .def_readonly("format", &Geometry::format)
       .def_readonly("notes", &Geometry::notes)
       .def_property_readonly("fields", &fieldsOf)
-      .def(py::pickle(&stateOf, &geometryFrom));
+      .def(py::pickle(&geometryState, &geometryFrom));
   py::class_<Selection>(module, "Selection").def(py::init(&selectionOf));
   module.def("read_file", &readFile, py::arg("path"), py::arg("kind"), py::arg("weld"), py::arg("progress"),
              py::arg("selection") = Selection());

@@ -70,7 +70,7 @@ py::tuple takeMatrices(Laplacian& laplacian, bool dummy) {
 }
 
 template <class T>
-py::array_t<T> bytesOf(const std::vector<T>& values, const py::object& self) {
+py::array_t<T> entriesOf(const std::vector<T>& values, const py::object& self) {
   return shown(values.data(), {std::ssize(values)}, self);
 }
 
@@ -90,13 +90,14 @@ void addMembers(py::class_<Laplacian, Shared>& type) {
   member("boundary", [](const Laplacian& l, const py::object& self) {
     return shown(reinterpret_cast<const std::uint8_t*>(l.boundary.data()), {std::ssize(l.boundary)}, self);
   });
-  member("representative", [](const Laplacian& l, const py::object& self) { return bytesOf(l.representative, self); });
+  member("representative",
+         [](const Laplacian& l, const py::object& self) { return entriesOf(l.representative, self); });
   member("normals", [](const Laplacian& l, const py::object& self) { return rowsOf(l.frames.normals, self); });
   member("tangents", [](const Laplacian& l, const py::object& self) { return rowsOf(l.frames.tangents, self); });
   member("positions", [](const Laplacian& l, const py::object& self) { return rowsOf(l.positions, self); });
   member("orientation", [](const Laplacian& l, const py::object&) { return static_cast<int>(l.frames.orientation); });
   member("component", [](const Laplacian& l, const py::object& self) {
-    return l.component.empty() ? owned(componentLabels(l)) : bytesOf(l.component, self);
+    return l.component.empty() ? owned(componentLabels(l)) : entriesOf(l.component, self);
   });
   member("report", [](const Laplacian& l, const py::object&) { return dictOf(l.report); });
   member("is_cloud", [](const Laplacian& l, const py::object&) { return l.kind == Kind::cloud; });

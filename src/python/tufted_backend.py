@@ -36,7 +36,7 @@ def _build():
     _check_packages()
     folder = str(ROOT / "build" / "wheel")
     configure = ["cmake", "-S", str(ROOT), "-B", folder, *(["-G", "Ninja"] if shutil.which("ninja") else []),
-                 "-DCMAKE_BUILD_TYPE=Release", "-DTUFTED_UNITY=24", "-DTUFTED_WITH_PYTHON=ON",
+                 "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DTUFTED_WITH_PYTHON=ON",
                  "-DTUFTED_WITH_PCL=OFF", "-DTUFTED_BUILD_TOOLS=OFF", "-DTUFTED_BUILD_TESTS=OFF",
                  f"-DTUFTED_PYTHON={sys.executable}", "-DCMAKE_MODULE_LINKER_FLAGS=-s"]
     subprocess.run(configure, check=True)
@@ -74,8 +74,7 @@ def build_sdist(sdist_directory, config_settings=None):
     version = _version()
     name = f"tufted-{version}"
     with tarfile.open(pathlib.Path(sdist_directory, f"{name}.tar.gz"), "w:gz") as archive:
-        for part in ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pyproject.toml", "include", "src",
-                     "tools/unity.cmake"):
+        for part in ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pyproject.toml", "include", "src"):
             archive.add(ROOT / part, f"{name}/{part}")
     return f"{name}.tar.gz"
 

@@ -16,6 +16,12 @@ struct BlockOfStars {
   Buffer<std::uint8_t> triangle;
   Buffer<double> radius;
 
+  void reserve(std::int64_t points) {
+    const auto usual = static_cast<std::size_t>(7 * points);  // mean number of link vertices
+    link.reserve(usual);
+    triangle.reserve(usual);
+    radius.reserve(usual);
+  }
   void appendTo(BuiltStars& built) const {
     built.stars.link.insert(built.stars.link.end(), link.begin(), link.end());
     built.stars.triangle.insert(built.stars.triangle.end(), triangle.begin(), triangle.end());
@@ -32,8 +38,8 @@ struct BlockOfStars {
 class BlocksInOrder {
  public:
   BlocksInOrder(std::int64_t blocks, BuiltStars& built) : waiting_(static_cast<std::size_t>(blocks)), built_(built) {
-    constexpr std::size_t usual_degree = 8;  // upper estimate of the mean over a cloud
-    const std::size_t likely = usual_degree * static_cast<std::size_t>(built.stars.size());
+    constexpr std::size_t large_degree = 8;  // upper estimate of the mean over a cloud
+    const std::size_t likely = large_degree * static_cast<std::size_t>(built.stars.size());
     built.stars.link.reserve(likely);
     built.stars.triangle.reserve(likely);
     built.support.radius.reserve(likely);

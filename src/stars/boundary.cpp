@@ -16,7 +16,6 @@ namespace {
 /// Points beyond a gap are searched among this many times k neighbours, the greatest growth of a neighbourhood.
 constexpr int search_factor = 8;
 constexpr double off_plane = 0.25;  // share of the fit radius, as between the heights of two sheets
-constexpr double farthest = 2;      // points farther away than this many longest edges do not count as beyond a gap
 /// Bound on the coordinates of a viewpoint, in median spreads, since their squares must fit a double.
 constexpr double far_away = 1e70;
 
@@ -44,7 +43,7 @@ class TangentPlane {
   Eigen::Vector3d x_, y_;
 };
 
-struct WorkerState {
+struct BoundaryWorker {
   SearchBefore before, seen_before;
   Buffer<Gap> gaps;
   Buffer<Neighbor> near;
@@ -66,7 +65,7 @@ class BoundaryFinder {
     seen_.emplace(directions_, workers);
   }
 
-  Boundary find(int p, WorkerState& state) const {
+  Boundary find(int p, BoundaryWorker& state) const {
     if (stars_.ends[p] == 0) return Boundary::none;
     if (!hasTriangles(stars_, p)) return Boundary::lost;
     source_.nearest(points_, p, search_factor * source_.k, state.near, NeighborOrder::any, &state.before);
@@ -102,10 +101,10 @@ class BoundaryFinder {
            off_plane * (view == View::along_normal ? std::max(support_.fit_radius[p], along) : support_.fit_radius[p]);
   }
 
-  Boundary lookBeyond(int p, View view, const TangentPlane& plane, WorkerState& state) const {
+  Boundary lookBeyond(int p, View view, const TangentPlane& plane, BoundaryWorker& state) const {
     findGaps(
         stars_, p, [&](int q) { return plane.direction(q); }, state.gaps);
-    const double limit = farthest * farthest * longestEdge(p, plane);
+    const double limit = farthest_beyond * farthest_beyond * longestEdge(p, plane);
     bool is_rim = false;
     for (const Gap& gap : state.gaps) {
       bool goes_on = false;
@@ -141,7 +140,7 @@ Buffer<Boundary> findBoundary(BuiltStars& built, const RankedCloud& cloud, const
   const auto scaled = [&](double x) { return std::clamp(std::ldexp(x, -cloud.exponent), -far_away, far_away); };
   const bool any = std::any_of(stars.ends.begin(), stars.ends.end(), [](std::uint8_t ends) { return ends != 0; });
   if (any && viewpoint != nullptr) finder.lookFrom(viewpoint->unaryExpr(scaled), workers);
-  Buffer<WorkerState> states(workers.count());
+  Buffer<BoundaryWorker> states(workers.count());
   workers.forBlocks("boundary", stars.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (int p = static_cast<int>(begin); p < end; ++p) boundary[p] = finder.find(p, states[worker]);
   });

@@ -18,7 +18,7 @@ namespace {
 // those in rad near two right angles, as in cells of grids.
 
 /// Sums that differ by less than this count as equal; those of exact rectangles differ by rounding, 1e-15.
-constexpr double tie = 1e-9;
+constexpr double equal_sums = 1e-9;
 /// If sums differ by more than this each star keeps its diagonal: the surface is barely resolved there. Cells of grids
 /// differ by less than 0.003; with 0.03 real shapes have 1.03 times the error.
 constexpr double most_difference = 0.01;
@@ -96,7 +96,7 @@ Diagonal diagonalOf(const PointsView& points, const std::array<int, 4>& corner) 
   const double difference = std::abs(opposite_first - opposite_other);
   if (difference > most_difference) return Diagonal::both;
   bool keeps_first = opposite_first < opposite_other;
-  if (!(difference > tie)) {
+  if (!(difference > equal_sums)) {
     const auto first = std::min_element(place.begin(), place.end(), isBefore);
     keeps_first = (first - place.begin()) % 2 == 0;
   }

@@ -7,6 +7,9 @@
 
 namespace tufted {
 
+/// Points farther away than this many longest edges of the star do not count as beyond a gap.
+constexpr double farthest_beyond = 2;
+
 /// The positive angle from direction `a` to direction `b`, at most a full turn.
 inline double turn(double a, double b) {
   const double angle = b - a;

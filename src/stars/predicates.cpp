@@ -28,7 +28,7 @@ Kernel::Point_2 toCgal(const PlanarPoint& p) {
   return {p.u, p.v};
 }
 
-double cross(double au, double av, double bu, double bv) {
+double determinantOf(double au, double av, double bu, double bv) {
   return au * bv - av * bu;
 }
 double dot(double au, double av, double bu, double bv) {
@@ -55,8 +55,8 @@ int orientation(const PlanarPoint& a, const PlanarPoint& b) {
 CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c) {
   const double abu = a.u - b.u, abv = a.v - b.v;
   const double cbu = c.u - b.u, cbv = c.v - b.v;
-  const double cross_p = cross(a.u, a.v, c.u, c.v), dot_p = dot(a.u, a.v, c.u, c.v);
-  const double cross_b = cross(cbu, cbv, abu, abv), dot_b = dot(cbu, cbv, abu, abv);
+  const double cross_p = determinantOf(a.u, a.v, c.u, c.v), dot_p = dot(a.u, a.v, c.u, c.v);
+  const double cross_b = determinantOf(cbu, cbv, abu, abv), dot_b = dot(cbu, cbv, abu, abv);
   // Sine and cosine of the sum of the angles at p and b, times the product of the four sides.
   const double sine = cross_p * dot_b + dot_p * cross_b;
   const double cosine = dot_p * dot_b - cross_p * cross_b;
@@ -67,7 +67,7 @@ CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const Planar
     return sine > 0 ? CircleSide::inside : CircleSide::outside;
   }
   // Within the band the sum is near 0, pi or 2 pi. Near pi it is a tie, unless all four points are nearly collinear.
-  const double cross_a = cross(-a.u, -a.v, -abu, -abv);
+  const double cross_a = determinantOf(-a.u, -a.v, -abu, -abv);
   const double sides_a = dot(a.u, a.v, a.u, a.v) * dot(abu, abv, abu, abv);
   if (in_range && cosine < 0 && cross_a * cross_a > flat_sine * flat_sine * sides_a) return CircleSide::tie;
   switch (CGAL::side_of_oriented_circle(Kernel::Point_2(0, 0), toCgal(a), toCgal(b), toCgal(c))) {

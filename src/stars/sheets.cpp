@@ -16,7 +16,7 @@ constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};
 /// design.
 constexpr double plane_of_few = 0.05;
 /// Cuts along the plane of the rest at most. Not varied since the first design.
-constexpr int most_splits = 3;
+constexpr int most_cuts = 3;
 /// Numbers of remaining points, p included: with up to `least_sheet` p is isolated; a plane needs `least_plane`, as
 /// many as a quadratic fit does.
 constexpr int least_sheet = 3, least_plane = 9;
@@ -27,7 +27,7 @@ constexpr double flat_sheet = 0.1, flat_few = 0.05;
 /// surface.
 constexpr double far_flatter = 0.25;
 /// Number of nearest neighbours whose pairs give, with p, planes to cut along: six planes, one packet.
-constexpr int most_corners = 4;
+constexpr int plane_neighbors = 4;
 /// Two neighbours whose angle at p has a smaller sine are nearly collinear with p and give no plane.
 constexpr double least_sine = 0.3;
 
@@ -82,7 +82,7 @@ bool keepSheetOfAll(const Eigen::Vector3d& normal, Neighborhood& neighborhood, O
 int planesThroughNearest(const Offsets& neighbors, Normals& planes) {
   const auto offset = [&](int i) { return Eigen::Vector3d(neighbors.x[i], neighbors.y[i], neighbors.z[i]); };
   int count = 0;
-  for (int i = 1; i < std::min(neighbors.count, most_corners); ++i) {
+  for (int i = 1; i < std::min(neighbors.count, plane_neighbors); ++i) {
     for (int j = 0; j < i; ++j) {
       const Eigen::Vector3d u = offset(i), v = offset(j), normal = u.cross(v);
       const double length = normal.norm();
@@ -192,7 +192,7 @@ void cutAlongPlanes(const PrincipalAxes& before, Neighborhood& neighborhood, Off
     neighborhood.axes = principalAxes(offsets.view());
     break;
   }
-  for (int i = 0; i < most_splits; ++i) {
+  for (int i = 0; i < most_cuts; ++i) {
     if (!keepSheetOfAll(neighborhood.axes.normal, neighborhood, offsets, scratch)) break;
     neighborhood.axes = principalAxes(offsets.view());
   }

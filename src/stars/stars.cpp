@@ -20,14 +20,12 @@ namespace tufted {
 namespace {
 
 constexpr int group_size = NeighborhoodFinder::most_planes;  // points whose frames, and then stars, are found together
-/// Mean number of link vertices per star, for the first allocation.
-constexpr std::size_t usual_degree = 7;
 /// How often the neighbours of an open star are doubled: points on rings around a pole see only their own ring among 60
 /// (error at anisotropy 20: 1.9e-2 to 7.9e-3).
 constexpr int most_doublings = 2;
 
 /// Memory, counts and times of one worker.
-struct WorkerState {
+struct StarWorker {
   Buffer<Neighborhood> neighborhoods;
   std::array<OffsetBuffer, group_size> offsets;
   NeighborhoodScratch neighborhood;
@@ -51,13 +49,11 @@ class StarBuilder {
         support_(built.support) {}
 
   /// Builds the stars of [begin, end) in state.memory.block.
-  void build(std::int64_t begin, std::int64_t end, WorkerState& state) const {
+  void build(std::int64_t begin, std::int64_t end, StarWorker& state) const {
     const int count = static_cast<int>(end - begin);
     const int first = static_cast<int>(begin);
     state.neighborhoods.resize(std::max<std::size_t>(state.neighborhoods.size(), count));
-    state.memory.block.link.reserve(usual_degree * count);
-    state.memory.block.triangle.reserve(usual_degree * count);
-    state.memory.block.radius.reserve(usual_degree * count);
+    state.memory.block.reserve(count);
     Stopwatch watch;
     finder_.find(first, count, state.neighborhood, state.neighborhoods.data());
     state.seconds[0] += watch.restart();
@@ -77,7 +73,7 @@ class StarBuilder {
   }
 
  private:
-  void takeFrame(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, WorkerState& state) const {
+  void takeFrame(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, StarWorker& state) const {
     finder_.refine(p, neighborhood, offsets, state.neighborhood);
     state.grown_neighborhoods += neighborhood.grown ? 1 : 0;
     state.split_neighborhoods += neighborhood.split ? 1 : 0;
@@ -92,13 +88,13 @@ class StarBuilder {
   }
 
   /// Finds the star among the neighbours.
-  void wrap(int p, const Neighborhood& neighborhood, double unit, const Offsets& offsets, WorkerState& state) const {
+  void wrap(int p, const Neighborhood& neighborhood, double unit, const Offsets& offsets, StarWorker& state) const {
     wrapping_.wrap(p, neighborhood.axes.normal, unit, offsets, neighborhood.neighbors, state.memory);
   }
 
   /// Whether the star is still open among the grown neighbours, without building it.
   bool staysOpen(const Eigen::Vector2d& gap, const Neighborhood& neighborhood, double unit, const Offsets& offsets,
-                 WorkerState& state) const {
+                 StarWorker& state) const {
     state.memory.planar.clear();
     projectParts(neighborhood.axes.normal, unit, offsets, neighborhood.neighbors,
                  [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
@@ -111,7 +107,7 @@ class StarBuilder {
   /// Finds the star, and takes more neighbours if it is not certain: a circle of a closed star leaves the ball that was
   /// searched, or an open star might close among more neighbours (*The certificate* in section 6 of docs/algorithm.md).
   void wrapUntilCertain(int p, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
-                        WorkerState& state) const {
+                        StarWorker& state) const {
     const bool is_thorough = options_.steps.star_search == StarSearch::thorough;
     const bool has_grown_most = is_thorough && neighborhood.k >= finder_.mostNeighbors();
     const int most = has_grown_most ? neighborhood.k : 2 * neighborhood.k;
@@ -126,7 +122,7 @@ class StarBuilder {
   /// Takes more neighbours, at most `most`, while a circle of the closed star leaves the ball that was searched: a
   /// point within the circle but outside of the ball would change the star.
   void coverCircles(int p, int most, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
-                    WorkerState& state) const {
+                    StarWorker& state) const {
     const DelaunayStar& star = state.memory.star;
     while (star.closed && !(2 * star.largestCircumradius() <= neighborhood.radius * unit) &&
            finder_.grow(p, most, neighborhood, offsets, state.neighborhood)) {
@@ -136,8 +132,7 @@ class StarBuilder {
   }
 
   /// Whether the open star closes among twice or four times as many neighbours. If not, it is restored.
-  bool closesAmongMore(int p, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
-                       WorkerState& state) const {
+  bool closesAmongMore(int p, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets, StarWorker& state) const {
     state.saved_star = state.memory.star;
     state.saved_neighborhood = neighborhood;
     const Eigen::Vector2d gap = middleOfGap(state.memory.star);
@@ -155,7 +150,7 @@ class StarBuilder {
     return false;
   }
 
-  void wrapStar(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, WorkerState& state) const {
+  void wrapStar(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, StarWorker& state) const {
     // A power of two near the fit radius: the predicates get numbers near 1, and scaling is exact.
     const double unit = magnitudeOf(neighborhood.fit_radius);
     DelaunayStar& star = state.memory.star;
@@ -205,7 +200,7 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
 
   Stopwatch wall;
   const std::int64_t blocks = (n + star_block - 1) / star_block;
-  Buffer<WorkerState> states(workers.count());
+  Buffer<StarWorker> states(workers.count());
   const StarBuilder builder(cloud, source, options, built);
   BlocksInOrder in_order(blocks, built);
   workers.forBlocks("stars", n, star_block, [&](std::int64_t begin, std::int64_t end, int worker) {
@@ -215,7 +210,7 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
   finishOffsets(stars);
 
   std::array<double, 3> seconds = {};
-  for (const WorkerState& state : states) {
+  for (const StarWorker& state : states) {
     report.grown_neighborhoods += state.grown_neighborhoods;
     report.split_neighborhoods += state.split_neighborhoods;
     report.thick_neighborhoods += state.thick;

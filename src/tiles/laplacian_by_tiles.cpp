@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/require.h"
 #include "base/sort_unique.h"
 #include "pipeline/cloud_options.h"
 #include "tiles/passes_scaling.h"
@@ -25,29 +26,28 @@ constexpr double fixed_bytes = 250e6;
 /// Share of the points in memory that a tile owns; the others are its margin.
 constexpr double own_share = 0.6;
 
-[[noreturn]] void refuse(const std::string& text) {
-  throw InvalidInput(std::string(laplacian_by_tiles_name) + ": " + text);
-}
-
 void checkOptions(const TileOptions& options) {
   const CloudOptions& cloud = options.cloud;
   checkCloudOptions(
       laplacian_by_tiles_name, Points(0, 3),
       {.neighbors = cloud.neighbors, .mollify = cloud.mollify, .threads = cloud.threads, .paper = cloud.paper});
-  if (options.tiles < 0) refuse("tiles = " + std::to_string(options.tiles) + ", must be >= 0");
+  if (options.tiles < 0) refuse(laplacian_by_tiles_name, "tiles = " + std::to_string(options.tiles) + ", must be >= 0");
   if (!(options.memory > fixed_bytes))
-    refuse("memory = " + numberText(options.memory) + " bytes, must be more than " + numberText(fixed_bytes));
+    refuse(laplacian_by_tiles_name,
+           "memory = " + numberText(options.memory) + " bytes, must be more than " + numberText(fixed_bytes));
   const TileProcesses& processes = options.processes;
   if (!(0 <= processes.number && processes.number < processes.count))
-    refuse("processes.number = " + std::to_string(processes.number) +
-           ", must be in [0, processes.count = " + std::to_string(processes.count) + ")");
-  if (processes.count > 1 && !processes.share) refuse("processes.share is empty, must be set for several processes");
+    refuse(laplacian_by_tiles_name, "processes.number = " + std::to_string(processes.number) +
+                                        ", must be in [0, processes.count = " + std::to_string(processes.count) + ")");
+  if (processes.count > 1 && !processes.share)
+    refuse(laplacian_by_tiles_name, "processes.share is empty, must be set for several processes");
   if (cloud.normals != nullptr || cloud.neighborhoods != nullptr || cloud.structure != nullptr ||
       cloud.viewpoint != nullptr)
-    refuse("normals, neighborhoods, structure and viewpoint must be null");
-  if (cloud.steps.denoise) refuse("denoise = true, must be false: noise is not yet found by tiles");
+    refuse(laplacian_by_tiles_name, "normals, neighborhoods, structure and viewpoint must be null");
+  if (cloud.steps.denoise)
+    refuse(laplacian_by_tiles_name, "denoise = true, must be false: noise is not yet found by tiles");
   if (cloud.paper.gluing != Gluing::star || cloud.paper.order != FaceOrder::angle)
-    refuse("gluing and order of the paper must be star and angle: others need a whole cover");
+    refuse(laplacian_by_tiles_name, "gluing and order of the paper must be star and angle: others need a whole cover");
 }
 
 void ask(const TileOptions& options, const char* stage, double share) {
@@ -212,8 +212,9 @@ class TileBuilds {
   }
 
   [[noreturn]] void refuseLarge(std::int64_t held) const {
-    refuse("a tile holds " + std::to_string(held) + " points with its margin, must be at most " +
-           std::to_string(most_points_) + ": give more memory, or leave out points far from the surface");
+    refuse(laplacian_by_tiles_name, "a tile holds " + std::to_string(held) +
+                                        " points with its margin, must be at most " + std::to_string(most_points_) +
+                                        ": give more memory, or leave out points far from the surface");
   }
 
   static TileReport countsOf(const TileRows& rows) {

@@ -25,7 +25,7 @@ constexpr std::int64_t most_cells = 1 << 20;
 constexpr int finest_level = 16;                          // cells of 2^-11 spreads, more than most_cells on a surface
 constexpr std::size_t batch_size = std::size_t{1} << 20;  // points that are sorted in memory, 50 MB
 
-[[noreturn]] void refuse(const std::filesystem::path& folder, const char* what) {
+[[noreturn]] void failTo(const std::filesystem::path& folder, const char* what) {
   throw IoError(folder.string() + ": cannot " + what + " the file of sorted points: " + std::strerror(errno));
 }
 
@@ -82,7 +82,7 @@ void writeAt(int file, const std::filesystem::path& folder, const StoredPoint* p
   while (left > 0) {
     const ssize_t written = ::pwrite(file, bytes, left, offset);
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) refuse(folder, "write");
+    if (written < 0) failTo(folder, "write");
     bytes += written, offset += written, left -= static_cast<std::size_t>(written);
   }
 }
@@ -95,7 +95,7 @@ SortedPoints::SortedPoints(const PointSource& source, const Scaling& scaling, co
 SortedPoints::File::File(const std::filesystem::path& folder) {
   std::string name = (folder / ".tufted-points-XXXXXX").string();
   number_ = ::mkstemp(name.data());
-  if (number_ < 0) refuse(folder, "create");
+  if (number_ < 0) failTo(folder, "create");
   ::unlink(name.c_str());
 }
 
@@ -149,7 +149,7 @@ void SortedPoints::read(int first, int last, std::vector<StoredPoint>& points) c
   while (left > 0) {
     const ssize_t got = ::pread(file_.number(), bytes, left, offset);
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) refuse(folder_, "read");
+    if (got <= 0) failTo(folder_, "read");
     bytes += got, offset += got, left -= static_cast<std::size_t>(got);
   }
 }

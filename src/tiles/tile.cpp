@@ -26,7 +26,7 @@ constexpr int hops_of_settled = 2;
 /// that found fewer points than it asked for would not know what it missed.
 constexpr std::int64_t most_asked = 64;
 
-double circumradius(double a, double b, double c) {
+double circumradiusOfSides(double a, double b, double c) {
   return a * b * c / (4 * triangleArea(a, b, c));
 }
 
@@ -143,7 +143,7 @@ void Tile::addFaceRadii() {
   const PowerOfTwo unit = scaling().toScaled();
   const CoverSource& cover = *result_.cover_source;
   cover.visitFaces(0, cover.parts(), [&](const std::array<int, 3>& corners, const double* length) {
-    const double r = circumradius(unit.times(length[0]), unit.times(length[1]), unit.times(length[2]));
+    const double r = circumradiusOfSides(unit.times(length[0]), unit.times(length[1]), unit.times(length[2]));
     for (const int i : corners) radius[cell_of_[i]] = std::max(radius[cell_of_[i]], r);
   });
   // An empty circle lies within its diameter of each corner.

@@ -21,7 +21,7 @@ constexpr int most_flips = 20000;
 /// Angles around an edge that are smaller may be 0.
 constexpr double rounding_of_angles = 1e-7;
 
-struct Face {
+struct TriangleFace {
   std::array<int, 3> corner;
   std::array<Real, 3> length;  ///< of the sides from corner s to corner s + 1
   std::array<int, 3> mate;     ///< 3 f + s
@@ -56,7 +56,7 @@ class DenseCover {
       faces_.push_back(faceOf({i, k, j}));
     }
     glueAll();
-    for (const Face& face : faces_) noteAspect(face);
+    for (const TriangleFace& face : faces_) noteAspect(face);
   }
 
   void flipAll() {
@@ -77,7 +77,7 @@ class DenseCover {
     Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> L = decltype(L)::Zero(n, n);
     Eigen::Matrix<Real, Eigen::Dynamic, 1> M = decltype(M)::Zero(n);
     for (int side = 0; side < sides(); ++side) {
-      const Face& face = faces_[side / 3];
+      const TriangleFace& face = faces_[side / 3];
       const int s = side % 3, i = face.corner[s], j = face.corner[(s + 1) % 3];
       if (face.isFlat()) result_.has_flat = true;
       if (std::abs(cotanSum(side)) < 1e-9L * (1 + cotanSize(side)) && side / 3 != mateOf(side) / 3)
@@ -108,10 +108,10 @@ class DenseCover {
     const auto d = (points_.row(a) - points_.row(b)).cast<Real>().eval();
     return std::hypot(d[0], d[1], d[2]);
   }
-  Face faceOf(const std::array<int, 3>& c) const {
+  TriangleFace faceOf(const std::array<int, 3>& c) const {
     return {c, {distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])}, {-1, -1, -1}};
   }
-  void noteAspect(const Face& face) {
+  void noteAspect(const TriangleFace& face) {
     if (face.isFlat()) return;
     const Real aspect = face.longest() * face.longest() / (2 * face.area());
     result_.aspect = std::max(result_.aspect, static_cast<double>(aspect));
@@ -187,7 +187,7 @@ class DenseCover {
   /// Replaces the faces (i, j, k), (j, i, m) by (k, i, m), (m, j, k) and returns the four outer sides.
   std::array<int, 4> flip(int side, int mate) {
     const int f = side / 3, g = mate / 3, s = side % 3, z = mate % 3;
-    const Face a = faces_[f], b = faces_[g];
+    const TriangleFace a = faces_[f], b = faces_[g];
     const int jk = (s + 1) % 3, ki = (s + 2) % 3, im = (z + 1) % 3, mj = (z + 2) % 3;
     const Real base = a.length[s];
     const auto foot = [&](Real from_i, Real from_j) {
@@ -215,7 +215,7 @@ class DenseCover {
   const Points& points_;
   std::span<const StarTriangle> triangles_;
   DenseResult& result_;
-  std::vector<Face> faces_;
+  std::vector<TriangleFace> faces_;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace tufted::shapes {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Parametrization = std::function<Vector3d(double u, double v)>;
 
 MeshBuilder squareBuilder(int n) {

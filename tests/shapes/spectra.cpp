@@ -9,7 +9,7 @@
 namespace tufted::shapes {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 VectorXd smallest(std::vector<double> values, int count) {
   std::sort(values.begin(), values.end());

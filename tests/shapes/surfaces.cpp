@@ -8,7 +8,7 @@ namespace tufted::shapes {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Composite Gauss-Legendre quadrature of the stretch, 3 points per panel; accurate to 1e-12 on all surfaces here.
 double integrateArea(const Surface& surface) {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -17,7 +16,6 @@
 namespace tufted::bench {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double degrees = 180 / std::numbers::pi;
 
 /// Whether a pixel is at least five pixels from the edges of its body and of the image.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "shapes/random.h"
@@ -11,7 +10,6 @@
 namespace tufted::bench {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double disparity = 43.1;  // disparity times depth, pixels times metres: focal length 575, baseline 7.5 cm
 
 /// A plane through `place` with the normal `axis`, a ball around it, or a cylinder around the axis through it.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 
 namespace tufted::bench {
 
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();  ///< where no ray meets a body
 /// A seed determines the noise, the offset of disparity steps, and a rotation of the camera by less than a pixel.
 constexpr std::uint64_t first_view_seed = 101, last_view_seed = 103;
 constexpr double view_seeds = 1 + last_view_seed - first_view_seed;

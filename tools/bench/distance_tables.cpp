@@ -246,7 +246,7 @@ void printSphere() {
   std::printf(
       "| sphere, distance | marching, mean | max | split twice, mean | max | heat, mean | max |\n"
       "|---|---|---|---|---|---|---|\n");
-  constexpr std::uint64_t first_seed = 101, seeds = 3;
+  constexpr std::uint64_t seeds = 3;
   struct Rows {
     double noise;
     bool moves;

@@ -17,8 +17,6 @@
 namespace tufted::bench {
 namespace {
 
-constexpr std::uint64_t first_seed = 101, last_seed = 105;
-
 /// A motion of one face of a solid, while another one stays in place.
 struct Edit {
   const char* name;

@@ -22,7 +22,6 @@ using shapes::Cloud;
 using shapes::rmsDistance;
 using shapes::Sampling;
 
-constexpr std::uint64_t first_seed = 101, last_seed = 105;
 constexpr int points = 16000;
 
 /// A row of the table.

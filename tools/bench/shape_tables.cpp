@@ -25,8 +25,6 @@
 namespace tufted::bench {
 namespace {
 
-constexpr std::uint64_t first_seed = 101, last_seed = 105;
-
 Points halfSphere(int n, std::uint64_t seed) {
   const Points whole = shapes::sphere(2 * n, shapes::Sampling::uniform, seed).points;
   std::vector<int> upper;

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstdint>
+
 // Tables of the accuracy of the algorithms, in Markdown.
 
 namespace tufted::bench {
+
+constexpr std::uint64_t first_seed = 101, last_seed = 105;  ///< of samples; constants are chosen on 1 to 9
 
 void printMeshes();           ///< CGAL's meshes
 void printPaths();            ///< paths on CGAL's meshes and on spheres

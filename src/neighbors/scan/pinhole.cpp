@@ -14,9 +14,9 @@ namespace tufted {
 namespace {
 
 /// Number of sampled pixels that a camera is fitted to.
-constexpr std::int64_t samples = 2000;
+constexpr std::int64_t sampled_pixels = 2000;
 /// Least number of rows, and of columns, of an image.
-constexpr int least_side = 8;
+constexpr int least_image_side = 8;
 /// Least number of samples for the 8 unknowns of a camera.
 constexpr int least_samples = 100;
 /// The median error of a camera is at most this, in pixels, as that of the depth images of PCL is.
@@ -29,7 +29,7 @@ constexpr double most_share = 0.95;
 Buffer<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
   Buffer<Sighting> sightings;
   // odd, so that not all samples are in one column
-  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / samples) | 1;
+  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / sampled_pixels) | 1;
   for (std::int64_t i = 0; i < points.rows(); i += stride) {
     const Eigen::Vector3d ray = points.row(i).transpose() - origin;
     if (!ray.allFinite() || ray.isZero(0)) continue;
@@ -61,7 +61,8 @@ Eigen::Matrix3d fitCamera(std::span<const Sighting> sightings) {
 }  // namespace
 
 std::optional<Eigen::Vector3d> opticalAxis(std::span<const Sighting> sightings, int width, int height) {
-  if (width < least_side || height < least_side || std::ssize(sightings) < least_samples) return std::nullopt;
+  if (width < least_image_side || height < least_image_side || std::ssize(sightings) < least_samples)
+    return std::nullopt;
   const Eigen::Matrix3d camera = fitCamera(sightings);
   Buffer<double> errors;
   errors.reserve(sightings.size());
@@ -105,8 +106,8 @@ double pixelFill(const Points& points, int width, int height, const Eigen::Vecto
 }
 
 bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
-  if (width < least_side || height < least_side || points.rows() != static_cast<Eigen::Index>(width) * height ||
-      !origin.allFinite())
+  if (width < least_image_side || height < least_image_side ||
+      points.rows() != static_cast<Eigen::Index>(width) * height || !origin.allFinite())
     return false;
   return opticalAxis(takeSightings(points, width, height, origin), width, height).has_value() &&
          pixelFill(points, width, height, origin) >= least_pixel_fill;

@@ -16,7 +16,7 @@ constexpr int first_stride = 16;
 /// and not the star.
 constexpr int dense_steps = 16;
 /// Rings that are searched on each side; farther ones have no part in a star.
-constexpr int most_rings = 2;
+constexpr int searched_rings = 2;
 /// Number of neighbours whose ball has a radius of one spacing, half the default k: with k = 30 it has 1.4 spacings.
 constexpr double neighbors_per_spacing = 15;
 /// The walk along a ring ends after this many consecutive points outside the ball: the surface has ended.
@@ -78,7 +78,7 @@ double RingSearch::nearest(int p, int k, Buffer<Neighbor>& found) const {
   addRing(self, self, radius, found);
   for (const int side : {1, -1}) {
     int foot = side > 0 ? above : below;
-    for (int rings = 1; rings <= most_rings && distanceTo(self, foot) <= radius; ++rings) {
+    for (int rings = 1; rings <= searched_rings && distanceTo(self, foot) <= radius; ++rings) {
       addRing(self, foot, radius, found);
       foot = footOn(own + side * (rings + 1), self, foot);
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <string>
 
@@ -16,12 +15,11 @@ namespace {
 /// Rings are separated by elevation if the gaps between rings exceed those within rings by this factor.
 constexpr double least_contrast = 4;
 /// Fewer groups of elevations are no scanner.
-constexpr int least_rings = 4;
+constexpr int least_scan_rings = 4;
 /// Mean number of points of a ring at least: in a random cloud a few gaps are tiny by chance, so that nearly each point
 /// would be a ring; real rings have hundreds.
 constexpr std::size_t least_per_ring = 16;
-constexpr double rounding = 1e-9;  // gaps below this, in rad, are rounding of coordinates
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double rounded_gap = 1e-9;  // gaps below this, in rad, are rounding of coordinates
 
 void checkOrigin(const char* function, const Eigen::Vector3d& origin) {
   if (!origin.allFinite()) throw InvalidInput(std::string(function) + ": origin is not finite, must be");
@@ -41,8 +39,8 @@ double widestInnerGap(std::vector<double> gaps) {
   std::sort(gaps.begin(), gaps.end(), std::greater<>());
   const std::size_t most_rings = (gaps.size() + 1) / least_per_ring;
   double contrast = 0, inner = 0;
-  for (std::size_t i = least_rings - 1; i < most_rings && gaps[i - 1] > rounding; ++i) {
-    const double here = gaps[i - 1] / std::max(gaps[i], rounding);
+  for (std::size_t i = least_scan_rings - 1; i < most_rings && gaps[i - 1] > rounded_gap; ++i) {
+    const double here = gaps[i - 1] / std::max(gaps[i], rounded_gap);
     if (here > contrast) contrast = here, inner = gaps[i];
   }
   if (!(contrast >= least_contrast)) {
@@ -83,7 +81,7 @@ ScanStructure ringStructure(const Points& points, std::vector<int> ring, const E
   structure.position.reserve(structure.row.size());
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Eigen::Vector3d ray = points.row(i).transpose() - origin;
-    structure.position.push_back(ray.allFinite() ? azimuthOf(ray) : unknown);
+    structure.position.push_back(ray.allFinite() ? azimuthOf(ray) : std::nan(""));
   }
   return structure;
 }
@@ -108,7 +106,7 @@ ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin) {
     int number = 0;
     double start = rays.front().elevation, widest = 0, narrowest = std::numbers::pi;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (i > 0 && gaps[i - 1] > std::max(inner, rounding)) {
+      if (i > 0 && gaps[i - 1] > std::max(inner, rounded_gap)) {
         ++number;
         narrowest = std::min(narrowest, gaps[i - 1]);
         start = rays[i].elevation;
@@ -116,7 +114,7 @@ ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin) {
       widest = std::max(widest, rays[i].elevation - start);
       ring[rays[i].index] = number;
     }
-    if (widest > narrowest || number + 1 < least_rings) {
+    if (widest > narrowest || number + 1 < least_scan_rings) {
       throw InvalidInput("findRings: " + std::to_string(number + 1) + " rings of up to " + numberText(widest) +
                          " rad with gaps down to " + numberText(narrowest) +
                          " rad, must be at least 4 and narrower than the gaps (is `origin` the sensor's?)");

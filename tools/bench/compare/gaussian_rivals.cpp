@@ -16,9 +16,9 @@ constexpr double cutoff = 4;
 
 /// exp(-d^2 / 4t) / (4 pi t^2) with the t at which a disk of radius `cutoff` sqrt(t) holds k points. As in the papers t
 /// is the same everywhere.
-class Kernel {
+class GaussianKernel {
  public:
-  Kernel(const Points& points, double area, int k)
+  GaussianKernel(const Points& points, double area, int k)
       : points_(points), t_(area / static_cast<double>(points.rows()) * k / std::numbers::pi / (cutoff * cutoff)) {}
   bool reaches(int p, int q) const { return squaredDistance(p, q) <= cutoff * cutoff * t_; }
   double operator()(int p, int q) const {
@@ -38,7 +38,7 @@ class Kernel {
 Operators belkinLaplacian(const Points& points, int k) {
   const VectorXd areas = starAreas(points);
   const NearestPoints nearest(points);
-  const Kernel kernel(points, areas.sum(), k);
+  const GaussianKernel kernel(points, areas.sum(), k);
   std::vector<Eigen::Triplet<double>> weights;
   for (int p = 0; p < points.rows(); ++p) {
     // Areas near the hull of a triangulation are wrong, so it has twice as many points as the kernel reaches.
@@ -56,7 +56,7 @@ Operators belkinLaplacian(const Points& points, int k) {
 Operators liuLaplacian(const Points& points, int k) {
   const VectorXd areas = starAreas(points);
   const NearestPoints nearest(points);
-  const Kernel kernel(points, areas.sum(), k);
+  const GaussianKernel kernel(points, areas.sum(), k);
   std::vector<Eigen::Triplet<double>> weights;
   std::set<std::pair<int, int>> pairs;
   for (int p = 0; p < points.rows(); ++p) {

@@ -9,8 +9,6 @@
 namespace tufted::bench {
 namespace {
 
-constexpr int compared = 40;
-
 /// One input under all orders: how far eigenvalues are apart, and their errors.
 template <class Build>
 std::vector<Cell> orderRow(const std::string& name, const VectorXd& exact, const Build& build) {

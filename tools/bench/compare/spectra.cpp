@@ -13,8 +13,6 @@
 namespace tufted::bench {
 namespace {
 
-constexpr int compared = 40;  ///< positive eigenvalues
-
 /// A cloud and the eigenvalues of its surface, ascending with zeros.
 struct Case {
   Points points, normals;

@@ -12,6 +12,8 @@
 
 namespace tufted::bench {
 
+constexpr int compared = 40;  ///< positive eigenvalues
+
 struct Settings {
   std::filesystem::path real = std::filesystem::path(TUFTED_DATA_DIR).parent_path() / "real";
   std::filesystem::path meshes = std::filesystem::path(TUFTED_CGAL_DATA_DIR) / "meshes";
