@@ -46,9 +46,11 @@ struct TileProcesses {
 
 /// Options of laplacianByTiles().
 struct TileOptions {
-  CloudOptions cloud = {};  ///< how rows are built; only `neighbors`, `steps`, `mollify` and `threads` are used
-  double memory = 4e9;      ///< bytes that may be taken beside what the source takes; tiles get smaller with it
-  int tiles = 0;            ///< number of tiles; 0: as few as fit in memory. At least one per process
+  /// How rows are built. `progress` is not called; what belongs to single points, and other choices of `paper` than the
+  /// default, are refused.
+  CloudOptions cloud = {};
+  double memory = 4e9;  ///< bytes that may be taken beside what the source takes; tiles get smaller with it
+  int tiles = 0;        ///< number of tiles; 0: as few as fit in memory. At least one per process
   std::filesystem::path folder = ".";  ///< a folder with room for 32 bytes per point, in a file without a name
   Progress progress = {};              ///< called for every batch of points that is read, and during every build
   TileProcesses processes = {};        ///< the process that calls, and the others; by default it is the only one

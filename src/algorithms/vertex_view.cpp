@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 
 /// The angle between sides a and b of a triangle.
-double cornerAngle(double a, double b, double opposite) {
+double angleBetweenSides(double a, double b, double opposite) {
   return std::atan2(4 * triangleArea(opposite, a, b), cotanNumerator(opposite, a, b));
 }
 
@@ -35,7 +35,7 @@ Wedge Wedge::of(const SurfacePoint& source, double on_line) {
           .others = {source.corners[far], source.corners[near]},
           .length = length,
           .weight = {source.weights[far], source.weights[near]},
-          .angle = cornerAngle(length[0], length[1], source.sides[corner] / unit),
+          .angle = angleBetweenSides(length[0], length[1], source.sides[corner] / unit),
           .unit = unit,
           .on_line = on_line * length[0]};
 }
@@ -45,7 +45,7 @@ VertexView::VertexView(const IntrinsicTriangulation& cover, const Wedge& wedge, 
   for (int first = side; sectors_.empty() || first != side; first = cover.glue[previousSide(first)]) {
     sectors_.push_back({first, total_});
     addImage(head(cover, first), {lengthOf(first), total_});
-    total_ += cornerAngle(lengthOf(first), lengthOf(previousSide(first)), lengthOf(nextSide(first)));
+    total_ += angleBetweenSides(lengthOf(first), lengthOf(previousSide(first)), lengthOf(nextSide(first)));
   }
 }
 

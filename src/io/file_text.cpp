@@ -16,8 +16,6 @@
 namespace tufted::io {
 namespace {
 
-constexpr std::size_t first_part = std::size_t{1} << 24;  // longer than any header
-
 std::size_t fileSize(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -52,7 +50,7 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   if (file < 0) return;
   if (fstat(file, &status) == 0 && status.st_size > 0) {
     size_ = static_cast<std::size_t>(status.st_size);
-    for (const std::size_t count : {size_, std::min(size_, first_part)}) {
+    for (std::size_t count = size_; count > 0; count /= 4) {
       void* const begin = mmap(nullptr, count, PROT_READ, MAP_PRIVATE, file, 0);
       if (begin == MAP_FAILED) continue;
       bytes_ = {static_cast<const char*>(begin), count};

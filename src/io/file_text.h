@@ -10,9 +10,9 @@ namespace tufted::io {
 /// @throws IoError if it is missing, empty, not a regular file (a directory, a pipe), or cannot be read
 std::string readBytes(const std::filesystem::path& path);
 
-/// The bytes of a regular file, which the system reads from disk where they are looked at. Only the first 16 MiB, where
-/// headers are, if the process may not have as many addresses as the file has bytes (`ulimit -v`); none if the file
-/// cannot be opened.
+/// The bytes of a regular file, which the system reads from disk where they are looked at. Only a fourth of them, a
+/// sixteenth, ... if the process may not have more addresses (`ulimit -v`), which is enough for a header; none if the
+/// file cannot be opened.
 class MappedFile {
  public:
   explicit MappedFile(const std::filesystem::path& path);

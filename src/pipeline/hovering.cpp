@@ -20,10 +20,9 @@ constexpr int least_count = 1000;       ///< fewer points say too little about a
 constexpr int hovering_neighbors = 30;  ///< number of neighbours, as in a build
 constexpr std::size_t least_cell = 8;   ///< points in a cell, most of which are on the lower one of two layers
 
-/// A neighbourhood fills a volume if its smallest variance exceeds this share of the middle one, as in the build's
-/// warning of thick neighbourhoods, and if fewer than the second share of the neighbours are within half the distance
-/// of the last one. That share is 1/4 on a surface and 1/8 in a volume, and this is the geometric mean.
-constexpr double least_thickness = 0.5, filled_share = 0.177;
+/// A neighbourhood fills a volume if it is thick, and if fewer than this share of the neighbours are within half the
+/// distance of the last one. That share is 1/4 on a surface and 1/8 in a volume, and this is the geometric mean.
+constexpr double filled_share = 0.177;
 /// Below this share of such neighbourhoods there is no warning: at most 0.006 on nine scans from one side without
 /// trees, 0.013 to 0.07 on three airborne scans with trees.
 constexpr double least_filled = 0.01;
@@ -62,7 +61,7 @@ std::ptrdiff_t countFilled(const RankedCloud& cloud) {
                                      [&](const Neighbor& neighbor) { return neighbor.squared_distance < quarter; });
     if (static_cast<double>(inner) > filled_share * (hovering_neighbors - 1)) continue;
     const PrincipalAxes axes = principalAxes(cloud.points, p, found);
-    count += axes.variance[0] > least_thickness * axes.variance[1] && !liesOnOneLine(axes) ? 1 : 0;
+    count += areThick(axes) ? 1 : 0;
   }
   return count;
 }

@@ -145,7 +145,7 @@ bool NeighborhoodFinder::grow(int p, int most, Neighborhood& neighborhood, Offse
                               NeighborhoodScratch& scratch) const {
   if (!query(p, std::min(2 * neighborhood.k, most), neighborhood, offsets, scratch)) return false;
   if (neighborhood.wrapped)
-    keepNearSide(neighborhood.axes.normal, neighborhood, offsets, scratch.sheets);
+    leaveOutSteep(neighborhood.axes.normal, neighborhood, offsets, scratch.sheets);
   else if (splitsSheets() && (neighborhood.split || (!neighborhood.restored && !neighborhood.grown)))
     keepSheet(neighborhood.axes.normal, neighborhood, offsets, scratch.sheets);
   return true;

@@ -31,10 +31,10 @@ constexpr int plane_neighbors = 4;
 /// Two neighbours whose angle at p has a smaller sine are nearly collinear with p and give no plane.
 constexpr double least_sine = 0.3;
 
-/// Where a neighbourhood reaches around a thin part, neighbours steeper than this over the plane of the nearest few are
-/// left out: 1 loses area at the tips of fingers, 2 keeps folds of cables 8 spacings around. Chosen on half of the real
-/// shapes with seed 1.
-constexpr double steep = 1.5;
+/// Where a neighbourhood reaches around a thin part, neighbours higher over or deeper under the plane of the nearest
+/// few than this many times their distance along it are left out: 1 loses area at the tips of fingers, 2 keeps folds of
+/// cables 8 spacings around. Chosen on half of the real shapes with seed 1.
+constexpr double steepest = 1.5;
 
 double flatness(const PrincipalAxes& axes) {
   return axes.variance[1] > 0 ? axes.variance[0] / axes.variance[1] : 0;
@@ -147,7 +147,7 @@ void cutAlongOwnPlanes(std::span<TriedSheet> sheets, const Neighborhood& neighbo
 bool holdsNearest(const Offsets& all, const Offsets& sheet) {
   constexpr int nearest = few_neighbors[0];
   const auto distance = [](const Offsets& of, int i) { return std::hypot(of.x[i], of.y[i], of.z[i]); };
-  return all.count < nearest || distance(sheet, 2) <= distance(all, nearest - 1);
+  return distance(sheet, 2) <= distance(all, nearest - 1);
 }
 
 /// The sheet with the most points, the first of equal ones; null if none is a plane.
@@ -198,15 +198,14 @@ void cutAlongPlanes(const PrincipalAxes& before, Neighborhood& neighborhood, Off
   }
 }
 
-/// Step 5: keeps the neighbours on this side of the plane of the nearest 13, or else 8. Returns whether it did.
+/// Step 5: takes the plane of the nearest 13, or else 8, and leaves out what is steep over it. Returns whether it did.
 bool unwrap(Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch) {
   for (std::size_t j = few_neighbors.size(); j-- > 0;) {
     const PrincipalAxes& few = neighborhood.axes_of_few[j];
-    if (neighborhood.k <= few_neighbors[j] || liesOnOneLine(few) ||
-        flatness(few) >= far_flatter * flatness(neighborhood.axes))
-      continue;
+    const bool is_flatter = few.variance[0] < far_flatter * flatness(neighborhood.axes) * few.variance[1];
+    if (neighborhood.k <= few_neighbors[j] || liesOnOneLine(few) || !is_flatter) continue;
     neighborhood.axes = few;
-    keepNearSide(few.normal, neighborhood, offsets, scratch);
+    leaveOutSteep(few.normal, neighborhood, offsets, scratch);
     return true;
   }
   return false;
@@ -214,13 +213,13 @@ bool unwrap(Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scr
 
 }  // namespace
 
-void keepNearSide(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
-                  SheetScratch& scratch) {
+void leaveOutSteep(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
+                   SheetScratch& scratch) {
   const Offsets all = offsets.view();
   scratch.heights.resize(static_cast<std::size_t>(toPackets(all.count)));
   for (int i = 0; i < all.count; ++i) {
     const Eigen::Vector3d offset(all.x[i], all.y[i], all.z[i]);
-    scratch.heights[i] = std::abs(offset.dot(normal)) - steep * offset.cross(normal).norm();
+    scratch.heights[i] = std::abs(offset.dot(normal)) - steepest * offset.cross(normal).norm();
   }
   scratch.range = {-HUGE_VAL, 0, -HUGE_VAL, HUGE_VAL};
   takeReached(neighborhood, offsets, scratch);

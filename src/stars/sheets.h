@@ -44,9 +44,9 @@ inline bool isWhole(const HeightRange& range) {
 /// radius. Returns whether any were removed.
 bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch);
 
-/// Leaves out the neighbours that lie steeply above or below the plane at p, as those around the bend of a cable do.
-void keepNearSide(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
-                  SheetScratch& scratch);
+/// Leaves out the neighbours that lie steeply over or under p, as those around the bend of a cable do.
+void leaveOutSteep(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
+                   SheetScratch& scratch);
 
 /// Removes neighbours on other sheets, surfaces that pass nearby (section 4 of docs/algorithm.md), and fits the plane
 /// to the rest; `split`, `wrapped`, `isolated` or `restored` record the outcome. If the rest is no plane, all are kept.

@@ -41,7 +41,7 @@ PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Nei
 bool liesOnOneLine(const PrincipalAxes& axes);
 
 /// Whether points are as thick as wide, as in volumes and on cables that they reach around: the smallest variance
-/// exceeds half of the second.
+/// exceeds half of the second, and they do not lie on one line.
 bool areThick(const PrincipalAxes& axes);
 
 /// A unit vector perpendicular to the unit vector `normal`, a function of `normal` only.

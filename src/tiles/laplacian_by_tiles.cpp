@@ -200,14 +200,14 @@ class TileBuilds {
     return static_cast<double>(points);
   }
 
-  /// Reports the share of rows that are built while a task is carried out. Of its rows so many are expected to be
-  /// complete as were of those before.
-  Progress progressOf(const TileTask& task) const {
+  /// Reports the share of rows that are built while a task is carried out, which never falls. Of its rows so many are
+  /// expected to be complete as were of those before.
+  Progress progressOf(const TileTask& task) {
     const double expected = pointsOf(task) * (asked_points_ > 0 ? built_points_ / asked_points_ : 1);
-    return [this, expected, done = 0.](std::string_view stage, double fraction) mutable {
-      done = std::max(done, shareOfBuild(stage, fraction));
-      const double share = std::min(1., (built_points_ + done * expected) / own_points_);
-      return !options_.progress || options_.progress("tiles", share);
+    return [this, expected](std::string_view stage, double fraction) {
+      const double rows = built_points_ + shareOfBuild(stage, fraction) * expected;
+      share_ = std::max(share_, std::min(1., rows / own_points_));
+      return !options_.progress || options_.progress("tiles", share_);
     };
   }
 
@@ -254,6 +254,7 @@ class TileBuilds {
   std::int64_t most_points_ = 0, most_held_ = 0, all_held_ = 0;
   int builds_ = 0;
   double own_points_ = 0, asked_points_ = 0, built_points_ = 0;  ///< for progressOf(); of builds again as well
+  double share_ = 0;                                             ///< that was reported last
   std::vector<int> ends_;
   std::vector<Built> built_;
   std::vector<std::pair<int, int>> far_pairs_;  ///< see Tile::farPairs(), of all tiles known here

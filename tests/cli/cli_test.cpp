@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../support/resource_limit.h"
 #include "../io/temporary_dir.h"
+#include "../support/resource_limit.h"
 #include "command.h"
 #include "samples.h"
 

@@ -5,21 +5,22 @@
 
 #include <csignal>
 #include <fstream>
+#include <stdexcept>
 
 /// While this lives, the process and those that it starts get no more of a resource (getrlimit(2)) than `most`.
 class ResourceLimit {
  public:
-  ResourceLimit(__rlimit_resource resource, rlim_t most) : resource_(resource) {
+  ResourceLimit(decltype(RLIMIT_AS) resource, rlim_t most) : resource_(resource) {
     getrlimit(resource, &before_);
     const rlimit limit = {most, before_.rlim_max};
-    setrlimit(resource, &limit);
+    if (setrlimit(resource, &limit) != 0) throw std::runtime_error("the limit cannot be set");
   }
   ~ResourceLimit() { setrlimit(resource_, &before_); }
   ResourceLimit(const ResourceLimit&) = delete;
   ResourceLimit& operator=(const ResourceLimit&) = delete;
 
  private:
-  __rlimit_resource resource_;
+  decltype(RLIMIT_AS) resource_;
   rlimit before_ = {};
 };
 

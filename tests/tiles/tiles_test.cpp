@@ -222,6 +222,25 @@ TEST(Tiles, StopWhenProgressSaysSo) {
   }
 }
 
+TEST(Tiles, ReportAShareThatNeverFalls) {
+  const Points points = shapes::sphere(20000).points;
+  double share = 0;
+  int calls = 0;
+  const auto follow = [&](std::string_view stage, double fraction) {
+    if (stage != "tiles") return true;
+    ++calls;
+    EXPECT_GE(fraction, share);
+    share = fraction;
+    return true;
+  };
+  const TileReport report = laplacianByTiles(
+      sourceOf(points),
+      {.cloud = one(Preset::clean), .tiles = 5, .folder = std::filesystem::temp_directory_path(), .progress = follow},
+      [](const TileRows&) {});
+  EXPECT_GT(calls, 2 * report.tiles);  // during builds as well
+  EXPECT_GT(share, 0.9);
+}
+
 // Cells are as large as suits dense parts, so that triangles of others reach past many cells.
 TEST(Tiles, OfUnevenDensityAreThoseOfTheWhole) {
   expectSameByTiles(shapes::square(20000, shapes::Sampling::densityStep(400)).points);
