@@ -187,7 +187,9 @@ TEST(RecordFile, MayBeLargerThanTheAddressesThatAreLeft) {
     EXPECT_TRUE(areSame(points, expected)) << name;
     const auto head_of_large = tufted::readHead(path);
     ASSERT_EQ(head_of_large.has_value(), head.has_value()) << name;
-    if (head) EXPECT_EQ(head_of_large->points, head->points) << name;
+    if (head) {
+      EXPECT_EQ(head_of_large->points, head->points) << name;
+    }
   }
 }
 
