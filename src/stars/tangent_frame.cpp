@@ -17,7 +17,8 @@ namespace {
 /// Neighbours whose second variance is below this share of the largest lie on one line. With a fixed k scan lines of
 /// anisotropy 20 fall apart into thousands of components.
 constexpr double line_share = 0.1;
-/// Of the neighbourhoods on a cable 8 spacings around 84 % are thick by this share, 7 % at 11, and 78 % in a volume.
+/// Neighbourhoods whose smallest variance exceeds this share of the second are thick: 84 % of those on a cable 8
+/// spacings around, 7 % on one of 11, and 78 % in a volume.
 constexpr double thick_share = 0.5;
 
 /// The axes by Eigen's iteration, for covariances with two nearly equal eigenvalues.
