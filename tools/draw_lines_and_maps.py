@@ -70,7 +70,18 @@ def draw_cut():
     draw("cut_map", plane, {"z": values}, camera="top")
 
 
+def draw_flow():
+    # A ball with six arms at the start, after two and after twenty steps.
+    ball = tufted.read(ROOT / "datasets" / "icosphere.ply")
+    arms = 0.5 + 1.2 * (ball.points ** 6).sum(axis=1)
+    body = tufted.Mesh(arms[:, None] * ball.points, ball.faces)
+    for steps in (0, 2, 20):
+        points = body.mean_curvature_flow(steps=steps) if steps else body.points
+        draw(f"flow_{steps}", tufted.Mesh(points, body.faces), {"arms": arms}, camera=(30, 20), size=(280, 280))
+
+
 if __name__ == "__main__":
+    draw_flow()
     draw_lines()
     draw_maps()
     draw_cut()

@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
                                                     {"torus", bench::printTorus},
                                                     {"symmetry", bench::printSymmetry},
                                                     {"signed", bench::printSigned},
+                                                    {"lines", bench::printLines},
                                                     {"logmap", bench::printLogMaps},
                                                     {"query", bench::printQuery},
                                                     {"peers", bench::printPeers},

@@ -14,6 +14,7 @@ void printNonmanifold();      ///< the paper's Figure 16
 void printSphere();           ///< clouds of the sphere
 void printTorus();            ///< clouds of a torus
 void printSymmetry();         ///< symmetry and slopes of distances, and points not reached
+void printLines();            ///< traced lines and isolines beside circles
 void printLogMaps();          ///< lines that follow logarithmic maps
 void printSigned();           ///< signed distances from circles, and on real shapes
 void printQuery();            ///< times of queries
