@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "tufted/distance.h"
@@ -26,13 +27,19 @@ using SurfaceCurve = std::vector<SurfacePoint>;
 
 /// Work, accuracy and time of a query.
 struct SignedDistanceReport {
-  std::int64_t curve_points = 0;  ///< different points on the curves; of a place in a triangle, the triangle's corners
-  double curve_length = 0;        ///< sum of the lengths of the segments, in the caller's unit
-  VectorHeatReport heat;          ///< heat: of the transport of the normals of the curves
-  double residual = 0;            ///< heat: of the solve for distances, see SolveReport
-  DistanceReport march;           ///< marching: of the distances without sign
-  double seconds = 0;             ///< wall-clock
+  std::int64_t curve_points = 0;   ///< different points on the curves; of a place in a triangle, the triangle's corners
+  double curve_length = 0;         ///< sum of the lengths of the segments, in the caller's unit
+  std::int64_t segments = 0;       ///< pairs of consecutive places on one component, at different positions
+  std::int64_t long_segments = 0;  ///< those longer than the longest edges at their two ends together
+  VectorHeatReport heat;           ///< heat: of the transport of the normals of the curves
+  double residual = 0;             ///< heat: of the solve for distances, see SolveReport
+  DistanceReport march;            ///< marching: of the distances without sign
+  double seconds = 0;              ///< wall-clock
 };
+
+/// A sentence to warn of segments that are too long, empty if there are none: between their ends lie points that no
+/// place of the curve names, so that there distances are not from the curve.
+std::string longSegmentsWarning(const SignedDistanceReport& report);
 
 /// Distances from curves on the surface, positive to their left. Prepared once, queried often; queries may run in
 /// parallel.
@@ -67,8 +74,8 @@ class SignedDistanceSolver {
 
   /// Computes signed distances from the nearest of several curves and points.
   /// @param curves of vertices or places inside triangles, with at least two different places. Neighbours in a curve
-  /// should lie in one triangle, or about a spacing apart. Isolated and non-finite points are skipped, and a place that
-  /// coincides with the one before it.
+  /// should lie in one triangle, or about a spacing apart, see longSegmentsWarning(). Isolated and non-finite points
+  /// are skipped, and a place that coincides with the one before it.
   /// @param points marching: further sources, which have no side: distances from them are positive. Points alone have
   /// the distances of DistanceSolver.
   /// @return N values in the points' unit, positive to the left of the curves as seen from the side that normals point

@@ -141,6 +141,15 @@ std::optional<Eigen::Vector3d> weightsIn(const std::array<int, 3>& triangle, con
 
 }  // namespace
 
+bool skipsPoints(const CurveSegment& segment, const SparseMatrix& L, const Points& positions) {
+  double longest[2] = {0, 0};
+  for (const int end : {0, 1})
+    for (const int i : (end == 0 ? segment.from : segment.to).point.corners)
+      for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry)
+        longest[end] = std::max(longest[end], (positions.row(entry.row()) - positions.row(i)).stableNorm());
+  return segment.length > longest[0] + longest[1];
+}
+
 std::optional<SurfacePoint> middleInTriangle(const CurveSegment& segment, const Points& positions) {
   for (const CurvePlace* place : {&segment.from, &segment.to}) {
     const auto from = weightsIn(place->point.corners, segment.from), to = weightsIn(place->point.corners, segment.to);

@@ -26,6 +26,10 @@ struct CurveSegment {
 /// The middle of a segment whose ends lie in one triangle, that of one of its places; otherwise empty.
 std::optional<SurfacePoint> middleInTriangle(const CurveSegment& segment, const Points& positions);
 
+/// Whether a segment is longer than the longest edges at its two ends together, so that points lie between them.
+/// @param L whose entries join neighbours
+bool skipsPoints(const CurveSegment& segment, const SparseMatrix& L, const Points& positions);
+
 /// What says on which side of a curve points lie.
 struct SideGeometry {
   const SparseMatrix& L;  ///< whose entries join neighbours

@@ -309,7 +309,11 @@ VectorXd SignedDistanceSolver::queryAt(const std::vector<SurfaceCurve>& curves, 
   const SparseMatrix lengths = state.lengthsOf(known.segments);
   const VectorXd total = lengths * VectorXd::Ones(lengths.cols());
   made.curve_points = (total.array() > 0).count();
+  made.segments = std::ssize(known.segments);
   for (const CurveSegment& segment : known.segments) made.curve_length += segment.length;
+  made.long_segments = std::count_if(known.segments.begin(), known.segments.end(), [&](const CurveSegment& segment) {
+    return skipsPoints(segment, state.L, state.positions);
+  });
   VectorXd distance = state.heat ? state.byHeat(known.segments, lengths, progress, made)
                                  : state.byMarching(known, places, progress, made);
   for (Eigen::Index i = 0; i < distance.size(); ++i) {
@@ -332,6 +336,13 @@ SignedDistanceSolver::SignedDistanceSolver(const Laplacian& laplacian, const Fra
   auto state = std::make_unique<State>(laplacian, frames, options);
   state->report.seconds = watch.seconds();
   state_ = std::move(state);
+}
+
+std::string longSegmentsWarning(const SignedDistanceReport& report) {
+  if (report.long_segments == 0) return {};
+  return std::to_string(report.long_segments) + " of the " + std::to_string(report.segments) +
+         " segments of the curves are longer than the edges at both ends together, and the points between their ends " +
+         "do not count as parts of the curves; take paths between the ends";
 }
 
 double SignedDistanceSolver::timeStep() const {

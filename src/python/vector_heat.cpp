@@ -99,7 +99,10 @@ void addVectorHeat(py::module_& module) {
       .def(py::init(&signedSolverOf))
       .def("query", [](const SignedDistanceSolver& solver, const std::vector<SurfaceCurve>& curves,
                        const std::vector<SurfacePoint>& points, const py::object& progress) {
-        return run(progress, [&](const Progress& called) { return solver.queryAt(curves, points, nullptr, called); });
+        SignedDistanceReport report;
+        VectorXd values =
+            run(progress, [&](const Progress& called) { return solver.queryAt(curves, points, &report, called); });
+        return py::make_tuple(std::move(values), longSegmentsWarning(report));
       });
 }
 

@@ -172,6 +172,24 @@ TEST(SignedDistance, OfOddCloudsIsDefined) {
   EXPECT_EQ(report.curve_points, std::ssize(disk.curve) - 1);
 }
 
+TEST(SignedDistance, CountsSegmentsThatSkipPoints) {
+  const Case ball = onSphere(2000);
+  const Laplacian laplacian = orientedCloud(ball.points);
+  SignedDistanceReport report;
+  for (const DistanceMethod method : {DistanceMethod::heat, DistanceMethod::marching}) {
+    const SignedDistanceSolver solver(laplacian, {.method = method});
+    solver.query(ball.curve, &report);
+    EXPECT_EQ(report.segments, std::ssize(ball.curve) - 1);
+    EXPECT_EQ(report.long_segments, 0);
+    EXPECT_EQ(longSegmentsWarning(report), "");
+    const int opposite = ball.curve[ball.curve.size() / 2];
+    solver.query({ball.curve[0], ball.curve[1], opposite, opposite + 1}, &report);
+    EXPECT_EQ(report.segments, 3);
+    EXPECT_EQ(report.long_segments, 1);
+    EXPECT_EQ(longSegmentsWarning(report).rfind("1 of the 3 segments", 0), 0u);
+  }
+}
+
 TEST(SignedDistance, NamesWhatACallerGotWrong) {
   const shapes::Mesh square = shapes::gridSquare(4);
   const Laplacian laplacian = meshLaplacian(square.points, square.triangles);

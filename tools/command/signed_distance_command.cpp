@@ -105,7 +105,12 @@ Files in DIR, which replace older ones when all are complete:
     const Eigen::VectorXd distance =
         blameSurface(source, [&] { return solver.queryAt(curves, others, &made, source.progress); });
     results.report["method"] = isHeat() ? "heat" : "marching";
-    results.report["curve"] = {{"points", made.curve_points}, {"length", made.curve_length}};
+    results.report["curve"] = {{"points", made.curve_points},
+                               {"length", made.curve_length},
+                               {"segments", made.segments},
+                               {"long_segments", made.long_segments}};
+    if (const std::string warning = tufted::longSegmentsWarning(made); !warning.empty())
+      results.warnings.push_back(warning);
     results.summary.add(curves.size() > 1 ? "curves" : "curve", "%lld points, length %.6g",
                         static_cast<long long>(made.curve_points), made.curve_length);
     made.heat.residual = std::max(made.heat.residual, made.residual);

@@ -1,9 +1,11 @@
 """The methods of Surface that measure distances, or carry values and vectors along the surface."""
+import warnings
+
 import numpy as np
 
 from . import _arguments as check
 from . import _tufted
-from ._results import Isoline, LogMap, Path, Trace
+from ._results import Isoline, LogMap, Path, Trace, TuftedWarning
 from ._tufted import InvalidInput
 
 
@@ -239,7 +241,8 @@ class Distances:
         """The distance from curves on the surface, positive to their left as seen from the side that normals point to.
 
         curve: places in order, the first one again at the end if the curve is closed; or several such curves. A place
-        is an index or, inside a triangle of a mesh, a pair (face, (a, b, c)) with barycentric coordinates.
+        is an index or, inside a triangle of a mesh, a pair (face, (a, b, c)) with barycentric coordinates. Neighbours
+        lie in one triangle or about a spacing apart; longer steps are warned of, and path() finds the way between.
         method: "heat": all curves count as pieces of one, whose left sides should agree. Across gaps and beyond ends
         the distance continues smoothly. "marching": the length of a shortest path to the nearest curve, negative if it
         leaves the curve to the right.
@@ -272,7 +275,10 @@ class Distances:
             points = self._places(name, sources, faces, barycentric) if faces is not None or sources.size else []
             solver = self._keep(name, lambda: _tufted.SignedDistanceSolver(
                 self._laplacian, *self._signed_frames(), *settings, self._solver(), progress), settings)
-            return solver.query(curves, points, progress)
+            values, sentence = solver.query(curves, points, progress)
+        if sentence:
+            warnings.warn(f"{name}: {sentence}", TuftedWarning, stacklevel=3)
+        return values
 
     def _curve(self, function, places):
         """The places of a curve, in order."""
