@@ -166,7 +166,7 @@ void draw(const Points& points, const IntrinsicTriangulation& cover, const Intri
 
 }  // namespace
 
-Json printCover(const Settings& settings) {
+Table printCover(const Settings& settings) {
   Points points;
   Triangles triangles;
   if (settings.file.empty()) {
@@ -195,7 +195,7 @@ Json printCover(const Settings& settings) {
   table.row({static_cast<int>(triangles.rows()), static_cast<int>(cover.size()), static_cast<int>(found.edges.size()),
              found.flips, static_cast<int>(flipped), Cell("%.1e", found.greatest_miss)});
   if (!settings.picture.empty()) draw(points, cover, found, settings.picture);
-  return table.json();
+  return table;
 }
 
 }  // namespace tufted::bench

@@ -92,7 +92,7 @@ struct Errors {
 
 }  // namespace
 
-Json printDistance(const Settings& settings) {
+Table printDistance(const Settings& settings) {
   constexpr Eigen::Index most = 25000;  // triangles: CGAL's exact search takes minutes on more
   std::vector<Errors> methods = {{"tufted, marching"}, {"tufted, heat"}};
   for (const int k : {8, 15, 30}) methods.push_back({"Dijkstra, " + std::to_string(k) + " nearest"});
@@ -119,7 +119,7 @@ Json printDistance(const Settings& settings) {
                all.empty() ? Cell("") : percent(*std::max_element(all.begin(), all.end())),
                lost.empty() ? Cell("") : percent(*std::max_element(lost.begin(), lost.end()), "%.2f %%")});
   }
-  return table.json();
+  return table;
 }
 
 }  // namespace tufted::bench

@@ -7,7 +7,7 @@
 
 namespace tufted::bench {
 
-Json printDataset(const Settings& settings) {
+Table printDataset(const Settings& settings) {
   struct Way {
     std::string name;
     double mollify;
@@ -48,7 +48,7 @@ Json printDataset(const Settings& settings) {
     table.row({way.name, files, nonmanifold, Cell("%.0f", triangles), way.ok,
                percent(static_cast<double>(way.ok) / std::max(files, 1), "%.2f %%"), Cell("%.1f", way.seconds)});
   }
-  return table.json();
+  return table;
 }
 
 }  // namespace tufted::bench

@@ -94,7 +94,7 @@ struct Overshoots {
 
 }  // namespace
 
-Json printBoundary(const Settings& settings) {
+Table printBoundary(const Settings& settings) {
   const std::vector<shapes::Mesh> meshes = meshesOf(settings);
   Table table({"data", "Laplacian", "of " + std::to_string(meshes.size()) + " it applies to", "it overshoots on",
                "median overshoot", "greatest", "positive off-diagonals", "points without row", "no solution"});
@@ -110,10 +110,10 @@ Json printBoundary(const Settings& settings) {
       found.add([&] { return rival.build(mesh.points, rival.k); }, rival.symmetric, settings.first_seed);
     table.row(found.row("vertices", rival.name));
   }
-  return table.json();
+  return table;
 }
 
-Json printGreen(const Settings& settings) {
+Table printGreen(const Settings& settings) {
   constexpr std::array<int, 3> neighbors = {15, 30, 60};
   constexpr int sources = 4, most_clouds = 3;
   const int n = settings.pointsOr(4000);
@@ -130,7 +130,7 @@ Json printGreen(const Settings& settings) {
     std::vector<Cell> row = {rival.name, "", "", "", "", ""};
     const auto add = [&row](std::size_t column, const Cell& cell) {
       row[column].text += (row[column].text.empty() ? "" : "; ") + cell.text;
-      if (!row[column].value.is_array()) row[column].value = Json::array();
+      if (!row[column].value.is_array()) row[column].value = nlohmann::ordered_json::array();
       row[column].value.push_back(cell.value);
     };
     for (const int k : neighbors) {
@@ -161,7 +161,7 @@ Json printGreen(const Settings& settings) {
     }
     table.row(row);
   }
-  return table.json();
+  return table;
 }
 
 }  // namespace tufted::bench

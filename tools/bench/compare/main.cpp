@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   namespace bench = tufted::bench;
   struct Command {
     const char *name, *purpose;
-    bench::Json (*print)(const bench::Settings&);
+    bench::Table (*print)(const bench::Settings&);
   };
   const std::vector<Command> commands = {
       {"spectrum", "Errors of 40 eigenvalues on real shapes, a sphere and a torus", bench::printSpectrum},
@@ -76,20 +76,22 @@ int main(int argc, char** argv) {
   app.add_option("--rivals", settings.rivals, "Only these")->delimiter(';');
   app.add_option("-k", settings.k, "The same tables: neighbours, instead of the number of each rival");
   app.add_option("--json", json, "Write the rows to this file as well");
+  app.add_option("--svg", settings.picture, "Draw the table, of `cover` the cover, into this file");
   for (const Command& command : commands) {
     CLI::App* added = app.add_subcommand(command.name, command.purpose);
     if (command.print == bench::printDataset) added->add_option("DIR", settings.meshes, "Folder, with its subfolders");
     if (command.print != bench::printCover) continue;
     added->add_option("FILE", settings.file, "Mesh of at most 2,000 triangles (a sheared book of three pages)");
-    added->add_option("--svg", settings.picture, "Draw into this file");
   }
   CLI11_PARSE(app, argc, argv);
   try {
     for (const Command& command : commands) {
       if (!app.got_subcommand(command.name)) continue;
-      const bench::Json rows = command.print(settings);
-      if (!json.empty() && !(std::ofstream(json) << rows.dump(1) << "\n"))
+      const bench::Table table = command.print(settings);
+      if (!json.empty() && !(std::ofstream(json) << table.json().dump(1) << "\n"))
         throw std::runtime_error("cannot write " + json);
+      if (!settings.picture.empty() && command.print != bench::printCover)
+        drawTable(table, command.purpose, settings.picture);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "tufted_compare: %s\n", error.what());

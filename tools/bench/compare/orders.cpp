@@ -38,7 +38,7 @@ std::vector<Cell> orderRow(const std::string& name, const VectorXd& exact, const
 
 }  // namespace
 
-Json printOrders(const Settings& settings) {
+Table printOrders(const Settings& settings) {
   Table table({"input", "area: eigenvalues move by", "random: by", "error by angle", "by area", "by random order"});
   struct Input {
     std::string name;
@@ -67,7 +67,7 @@ Json printOrders(const Settings& settings) {
       return meshLaplacian(book.points, book.triangles, {.threads = 1, .paper = paper});
     }));
   }
-  return table.json();
+  return table;
 }
 
 }  // namespace tufted::bench

@@ -104,8 +104,8 @@ Column columnOf(const Settings& settings, const Make& make) {
 /// One row per rival, one column of mean errors per number, for which make(number, seed) draws clouds.
 /// @param with_normals whether there is a row of ours with the normals of the clouds
 template <class Make>
-Json printConditions(const Settings& settings, const char* name, const std::vector<double>& numbers, const Make& make,
-                     bool with_normals = false) {
+Table printConditions(const Settings& settings, const char* name, const std::vector<double>& numbers, const Make& make,
+                      bool with_normals = false) {
   std::vector<Column> columns;
   std::vector<std::string> names = {"Laplacian"};
   for (const double number : numbers) {
@@ -128,12 +128,12 @@ Json printConditions(const Settings& settings, const char* name, const std::vect
   for (const CloudRival& rival : rivalsOf(settings))
     addRow(rival.name, [&](const Column& column) { return measure(rival, settings.k, column); });
   if (with_normals) addRow(ours_with_normals, measureWithNormals);
-  return table.json();
+  return table;
 }
 
 }  // namespace
 
-Json printSpectrum(const Settings& settings) {
+Table printSpectrum(const Settings& settings) {
   const int n = settings.pointsOr(8000);
   Column real;
   for (const RealShape& shape : shapesOf(settings, compared)) {
@@ -166,10 +166,10 @@ Json printSpectrum(const Settings& settings) {
   for (const CloudRival& rival : rivalsOf(settings))
     addRow(rival.name, [&](const Column& column) { return measure(rival, settings.k, column); });
   addRow(ours_with_normals, measureWithNormals);
-  return table.json();
+  return table;
 }
 
-Json printNoise(const Settings& settings) {
+Table printNoise(const Settings& settings) {
   const int n = settings.pointsOr(4000);
   return printConditions(settings, "%g spacings", {0, .1, .3, .6, 1}, [n](double noise, std::uint64_t seed) {
     const shapes::Cloud torus = shapes::torus(n, shapes::Sampling::uniform, seed);
@@ -177,21 +177,21 @@ Json printNoise(const Settings& settings) {
   });
 }
 
-Json printDensity(const Settings& settings) {
+Table printDensity(const Settings& settings) {
   const int n = settings.pointsOr(4000);
   return printConditions(settings, "density 1 to %g", {1, 4, 16, 100}, [n](double ratio, std::uint64_t seed) {
     return shapes::torus(n, shapes::Sampling::densityStep(ratio), seed);
   });
 }
 
-Json printLines(const Settings& settings) {
+Table printLines(const Settings& settings) {
   const int n = settings.pointsOr(4000);
   return printConditions(
       settings, "lines %g times as far apart", {1, 3, 10, 30},
       [n](double ratio, std::uint64_t seed) { return shapes::torus(n, shapes::Sampling::scanLines(ratio), seed); });
 }
 
-Json printSheets(const Settings& settings) {
+Table printSheets(const Settings& settings) {
   const int n = settings.pointsOr(4000);
   return printConditions(
       settings, "%g spacings apart", {0.5, 1, 2, 4, 8},

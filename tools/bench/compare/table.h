@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -30,7 +31,7 @@ inline Cell percent(double share, const char* format = "%.1f %%") {
   return cell;
 }
 
-/// Prints rows in Markdown as they come, and keeps them for JSON.
+/// Prints rows in Markdown as they come, and keeps them for JSON and drawings.
 class Table {
  public:
   explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {
@@ -40,20 +41,29 @@ class Table {
     std::printf("|\n");
   }
   void row(const std::vector<Cell>& cells) {
-    nlohmann::ordered_json row;
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      std::printf("| %s ", cells[c].text.c_str());
-      row[columns_[c]] = cells[c].value;
-    }
+    for (const Cell& cell : cells) std::printf("| %s ", cell.text.c_str());
     std::printf("|\n");
     std::fflush(stdout);
-    rows_.push_back(row);
+    rows_.push_back(cells);
   }
-  const nlohmann::ordered_json& json() const { return rows_; }
+  const std::vector<std::string>& columns() const { return columns_; }
+  const std::vector<std::vector<Cell>>& rows() const { return rows_; }
+  nlohmann::ordered_json json() const {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const std::vector<Cell>& cells : rows_) {
+      nlohmann::ordered_json& row = all.emplace_back();
+      for (std::size_t c = 0; c < cells.size(); ++c) row[columns_[c]] = cells[c].value;
+    }
+    return all;
+  }
 
  private:
   std::vector<std::string> columns_;
-  nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
+  std::vector<std::vector<Cell>> rows_;
 };
+
+/// Draws a table as SVG: a point for each number, in a panel for each column.
+/// @throws std::runtime_error if the file cannot be written
+void drawTable(const Table& table, const std::string& title, const std::filesystem::path& path);
 
 }  // namespace tufted::bench

@@ -114,7 +114,7 @@ double meanDifference(const VectorXd& a, const VectorXd& b) {
 
 }  // namespace
 
-Json printThick(const Settings&) {
+Table printThick(const Settings&) {
   constexpr int count = 21;
   Table table({"mesh", "thickness", "tetrahedra", "volume over thickness and area", "20 eigenvalues differ by",
                "tetrahedra, s", "tufted, s"});
@@ -133,7 +133,7 @@ Json printThick(const Settings&) {
                  Cell("%.1f", watch.seconds()), Cell("%.2f", own_seconds)});
     }
   }
-  return table.json();
+  return table;
 }
 
 }  // namespace tufted::bench
