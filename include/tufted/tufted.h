@@ -17,6 +17,7 @@
 #include "tufted/laplacian.h"
 #include "tufted/laplacian_builder.h"
 #include "tufted/memory.h"
+#include "tufted/mean_curvature_flow.h"
 #include "tufted/minimal_surface.h"
 #include "tufted/nearest_point.h"
 #include "tufted/normals.h"

@@ -9,6 +9,7 @@
 #include "python/running.h"
 #include "tufted/deformation.h"
 #include "tufted/denoise.h"
+#include "tufted/mean_curvature_flow.h"
 #include "tufted/minimal_surface.h"
 #include "tufted/parameterization.h"
 #include "tufted/smoothing.h"
@@ -125,6 +126,15 @@ py::tuple minimal(const Laplacian& laplacian, const Integers& faces, const Integ
   return py::make_tuple(std::move(found), report.area, report.converged);
 }
 
+Points flowed(const Laplacian& laplacian, const Integers& faces, double time_step, int steps, const Solving& solving,
+              const py::object& progress) {
+  const auto triangles = trianglesOf(faces);
+  return run(progress, [&](const Progress& called) {
+    return meanCurvatureFlow(laplacian, triangles,
+                             {.time_step = time_step, .steps = steps, .solver = solving.options(called)});
+  });
+}
+
 DeformationSolver deformationSolver(const Laplacian& laplacian, const Integers& handles, const std::string& method,
                                     double smoothness, double tolerance, int max_iterations, const Solving& solving,
                                     const py::object& progress) {
@@ -149,6 +159,7 @@ void addMoving(py::module_& module) {
   module.def("denoise", &denoised);
   module.def("parameterize", &parameterized);
   module.def("minimal_surface", &minimal);
+  module.def("mean_curvature_flow", &flowed);
   py::class_<SmoothingSolver>(module, "SmoothingSolver")
       .def(py::init(&smoothingSolver))
       .def("smooth",

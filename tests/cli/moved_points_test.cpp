@@ -198,6 +198,10 @@ TEST_F(MovedPoints, SmoothMovesPointsOrFields) {
   run({"smooth", cloud_, "--time-step", "20", "--keep-volume", "--out", in("round")});
   const std::vector<double> x = values("round/positions.npy");
   EXPECT_NEAR(std::hypot(x[0], x[1], x[2]), 1, 0.05);
+  run({"smooth", cloud_, "--method", "flow", "--iterations", "2", "--out", in("flow")});
+  EXPECT_EQ(report("flow")["report"]["time_step"], 0.01);
+  const std::vector<double> on_ball = values("flow/positions.npy");
+  EXPECT_NEAR(std::hypot(on_ball[0], on_ball[1], on_ball[2]), 1, 0.05);
   run({"smooth", open_, "--field", "z", "--out", in("field")});
   EXPECT_EQ(values("field/smoothed.npy").size(), 81u);
   dir_.write("fixed.txt", "40\n");
@@ -207,10 +211,12 @@ TEST_F(MovedPoints, SmoothMovesPointsOrFields) {
 
 TEST_F(MovedPoints, SmoothRefusesOptionsThatDoNotFit) {
   expectRefusal({"smooth", open_, "--mu", "-0.5"}, "--mu needs --method taubin");
-  expectRefusal({"smooth", open_, "--method", "taubin", "--time-step", "1"}, "--time-step needs --method implicit");
+  expectRefusal({"smooth", open_, "--method", "taubin", "--time-step", "1"},
+                "--time-step needs --method implicit or flow");
   expectRefusal({"smooth", open_, "--lambda", "2", "--method", "taubin"}, "--lambda: 2 is not a number in (0, 1]");
   expectRefusal({"smooth", open_, "--keep-volume", "--field", "x"}, "--keep-volume excludes --field");
   expectRefusal({"smooth", open_, "--keep-volume"}, "has a rim, must be closed", 1);
+  expectRefusal({"smooth", open_, "--method", "flow", "--field", "x"}, "--method flow excludes --keep-volume");
   dir_.write("fixed.txt", "1\n81\n");
   expectRefusal({"smooth", open_, "--fixed", in("fixed.txt")}, "line 2 is no index in [0, 81)");
 }

@@ -91,5 +91,5 @@ def test_the_flow_works_in_any_unit():
     expected = tufted.Mesh(V, F).mean_curvature_flow(steps=3)
     for unit in (2.0**-400, 2.0**400):
         np.testing.assert_array_equal(tufted.Mesh(unit * V, F).mean_curvature_flow(steps=3), unit * expected)
-    with pytest.raises(tufted.SolverFailure, match="mean_curvature_flow: a step cannot be solved with time_step = 1e"):
+    with pytest.raises(tufted.SolverFailure, match="mean_curvature_flow: .*time_step = 1e"):
         tufted.Mesh(V, F).mean_curvature_flow(time_step=1e100)

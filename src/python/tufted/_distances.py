@@ -9,6 +9,14 @@ from ._results import Isoline, LogMap, Path, Trace, TuftedWarning
 from ._tufted import InvalidInput
 
 
+def signed_distances(function, solver, curves, points=(), progress=None):
+    """The distances that a _tufted.SignedDistanceSolver finds, with its warning."""
+    values, sentence = solver.query(curves, list(points), progress)
+    if sentence:
+        warnings.warn(f"{function}: {sentence}", TuftedWarning, stacklevel=4)
+    return values
+
+
 def _is_place(item):
     """Whether an item of a curve is a place, an index or (face, barycentric coordinates), and not a curve."""
     return not hasattr(item, "__len__") or (
@@ -275,10 +283,7 @@ class Distances:
             points = self._places(name, sources, faces, barycentric) if faces is not None or sources.size else []
             solver = self._keep(name, lambda: _tufted.SignedDistanceSolver(
                 self._laplacian, *self._signed_frames(), *settings, self._solver(), progress), settings)
-            values, sentence = solver.query(curves, points, progress)
-        if sentence:
-            warnings.warn(f"{name}: {sentence}", TuftedWarning, stacklevel=3)
-        return values
+            return signed_distances(name, solver, curves, points, progress)
 
     def _curve(self, function, places):
         """The places of a curve, in order."""

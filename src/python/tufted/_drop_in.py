@@ -5,6 +5,7 @@ import scipy.sparse
 from . import _arguments as check
 from . import _tufted
 from ._clouds import Mesh, PointCloud
+from ._distances import signed_distances
 from ._tufted import InvalidInput
 
 # The defaults of `time_step` that `t_coef` multiplies: of Surface.distance(), in mean squared edge lengths, and of
@@ -84,7 +85,7 @@ class _HeatSolver(OnSurface):
             raise InvalidInput(f"{name}: curves is empty, must have at least one")
         if solver is None:
             return nearest_of([self._surface.signed_distance(checked, time_step=VECTOR_STEP * self._t_coef)])
-        return nearest_of([solver.query([self._surface._curve(name, curve) for curve in checked], [], None)])
+        return nearest_of([signed_distances(name, solver, [self._surface._curve(name, curve) for curve in checked])])
 
 
 def require_zero_set(level_set_constraint):

@@ -6,8 +6,26 @@ import scipy.sparse
 
 from . import _arguments as check
 from . import _tufted
-from ._shape import lumped_areas, scaled, triangle_areas
 from ._tufted import InvalidInput
+
+
+def scaled(points):
+    """Points divided by a power of two, so that their coordinates lie in [-1, 1] and squares of them neither overflow
+    nor vanish, and this power. The division rounds nothing.
+    """
+    _, exponent = np.frexp(abs(points[np.isfinite(points)]).max(initial=0))
+    return np.ldexp(points, -exponent), np.ldexp(1.0, exponent)
+
+
+def triangle_areas(points, faces):
+    """The areas of F triangles."""
+    a, b, c = (points[faces[:, k]] for k in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def lumped_areas(points, faces):
+    """A third of the area of each triangle at each of its corners: N values."""
+    return np.bincount(faces.ravel(), np.repeat(triangle_areas(points, faces) / 3, 3), minlength=len(points))
 
 
 @check.public

@@ -2,57 +2,11 @@
 import warnings
 
 import numpy as np
-import scipy.sparse
 
 from . import _arguments as check
 from . import _tufted
 from ._results import Curvature, Deformation, MinimalSurface, Parameterization, Segments, TuftedWarning
-from ._tufted import InvalidInput, SolverFailure
-
-
-def scaled(points):
-    """Points divided by a power of two, so that their coordinates lie in [-1, 1] and squares of them neither overflow
-    nor vanish, and this power. The division rounds nothing.
-    """
-    _, exponent = np.frexp(abs(points[np.isfinite(points)]).max(initial=0))
-    return np.ldexp(points, -exponent), np.ldexp(1.0, exponent)
-
-
-def triangle_areas(points, faces):
-    """The areas of F triangles."""
-    a, b, c = (points[faces[:, k]] for k in range(3))
-    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-
-
-def lumped_areas(points, faces):
-    """A third of the area of each triangle at each of its corners: N values."""
-    return np.bincount(faces.ravel(), np.repeat(triangle_areas(points, faces) / 3, 3), minlength=len(points))
-
-
-def _centered(points, masses, labels):
-    """Points with the middle of each component at 0 and its area 1, and the middles and the square roots of areas."""
-    area = np.bincount(labels, masses)[:, None]
-    middle = np.stack([np.bincount(labels, masses * column) for column in points.T], axis=1) / area
-    size = np.sqrt(area)
-    return (points - middle[labels]) / size[labels], middle, size
-
-
-def _flowed(L, faces, labels, time_step, x):
-    """Solves (M + t L) y = M x, one implicit step, and scales each component back to area 1."""
-    from scipy.sparse.linalg import splu  # slow to import
-    # Points of collapsed triangles have no mass; the least one keeps the matrix regular where L is 0, too.
-    masses = lumped_areas(x, faces)
-    masses = np.maximum(masses, np.finfo(float).tiny + 1e-12 * masses.mean())
-    try:
-        found = splu((scipy.sparse.diags(masses) + time_step * L).tocsc(), permc_spec="MMD_AT_PLUS_A",
-                     options={"SymmetricMode": True}).solve(masses[:, None] * x)
-    except RuntimeError:  # exactly singular
-        found = np.full(x.shape, np.nan)
-    masses = lumped_areas(found, faces)
-    # Of a component whose area shrinks to less than that, less than half of the digits are left.
-    if not np.bincount(labels, masses).min() > np.finfo(float).eps:
-        raise SolverFailure(f"mean_curvature_flow: a step cannot be solved with time_step = {time_step:g}")
-    return _centered(found, masses, labels)[0]
+from ._tufted import InvalidInput
 
 
 @check.public
@@ -171,30 +125,9 @@ class Shape:
         """
         steps = check.whole("mean_curvature_flow", "steps", steps, 1)
         time_step = check.number("mean_curvature_flow", "time_step", time_step)
-        if not (time_step > 0 and np.isfinite(time_step)):
-            raise InvalidInput(f"mean_curvature_flow: time_step = {time_step:g}, must be finite and above 0")
         progress = check.callback("mean_curvature_flow", progress)
-        positions, unit = scaled(self.positions)
-        faces = self._joined_faces("mean_curvature_flow")
-        faces = faces[(self.status[faces] == 0).all(axis=1)]
-        labels, masses = self.components, lumped_areas(positions, faces)
-        area = np.bincount(labels[labels >= 0], masses[labels >= 0], minlength=1)
-        moving = np.flatnonzero((self.status == 0) & (area[labels] > 0))
-        moved = self._points.copy()
-        if not moving.size:
-            return moved
-        numbers = np.full(len(self), -1)
-        numbers[moving] = np.arange(moving.size)
-        faces = numbers[faces]
-        faces = faces[(faces >= 0).all(axis=1)]
-        _, labels = np.unique(labels[moving], return_inverse=True)
-        L = self.L[moving][:, moving]
-        x, middle, size = _centered(positions[moving], masses[moving], labels)
-        for step in range(steps):
-            check.report("mean_curvature_flow", progress, step / steps)
-            x = _flowed(L, faces, labels, time_step, x)
-        moved[moving] = (x * size[labels] + middle[labels]) * unit
-        return np.where((self.status == 2)[:, None], moved[self.representative], moved)
+        return _tufted.mean_curvature_flow(self._laplacian, self._surface_faces("mean_curvature_flow"), time_step, steps,
+                                           self._solver(), progress)
 
     def parameterize(self, *, method="conformal", weights="laplacian", rim=None, rim_positions=None, cuts=None,
                      progress=None):
