@@ -235,6 +235,8 @@ bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, Offset
 
 void splitSheets(Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch) {
   if (neighborhood.neighbors.empty()) return;
+  // Of scan lines far apart, each that bends lies in a plane of its own, which is no sheet.
+  if (neighborhood.k > few_neighbors.back() && liesOnOneLine(neighborhood.axes_of_few.back())) return;
   const PrincipalAxes before = neighborhood.axes;
   scratch.all.clear();
   cutAlongPlanes(before, neighborhood, offsets, scratch);

@@ -51,6 +51,17 @@ TEST(Scans, ScanLinesAreNoWorseThanTheHullOfTheirPoints) {
   }
 }
 
+/// Lines that bend, far apart, lie in planes of their own, which are no sheets.
+TEST(Scans, BentScanLinesFarApartAreOneSurface) {
+  for (const double anisotropy : {10.0, 30.0}) {
+    const auto torus = shapes::torus(4000, shapes::Sampling::scanLines(anisotropy), 101);
+    const Laplacian laplacian = pointCloudLaplacian(torus.points, scan);
+    EXPECT_EQ(laplacian.report.split_neighborhoods, 0) << anisotropy;
+    EXPECT_EQ(laplacian.report.components, 1) << anisotropy;
+    EXPECT_NEAR(laplacian.report.area, torus.area, 0.05 * torus.area) << anisotropy;
+  }
+}
+
 TEST(Scans, TheMassIsPositiveAndKnowsBothAreas) {
   const auto torus = shapes::torus(16000);
   const Laplacian laplacian = pointCloudLaplacian(torus.points, scan);
