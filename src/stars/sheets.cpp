@@ -40,6 +40,21 @@ double flatness(const PrincipalAxes& axes) {
   return axes.variance[1] > 0 ? axes.variance[0] / axes.variance[1] : 0;
 }
 
+/// Whether p has its nearest 13 neighbours in two opposite directions, as on a scan line far from others. Their plane
+/// is that of the bend of the line, and says nothing about sheets.
+bool isAlongOneLine(const Offsets& neighbors) {
+  Covariance directions;
+  directions.extent = 1;
+  for (int i = 0; i < few_neighbors.back(); ++i) {
+    const Eigen::Vector3d d = Eigen::Vector3d(neighbors.x[i], neighbors.y[i], neighbors.z[i]).normalized();
+    directions.xx += d.x() * d.x(), directions.xy += d.x() * d.y(), directions.xz += d.x() * d.z();
+    directions.yy += d.y() * d.y(), directions.yz += d.y() * d.z(), directions.zz += d.z() * d.z();
+  }
+  PrincipalAxes axes;
+  principalAxes({&directions, 1}, {&axes, 1});
+  return liesOnOneLine(axes);
+}
+
 /// Whether the remaining neighbours are a plane: flatter than `flat`, and far flatter than before.
 bool isSheet(int neighbors, const PrincipalAxes& axes, const PrincipalAxes& before, double flat) {
   return neighbors + 1 >= least_plane && !liesOnOneLine(axes) && flatness(axes) < flat &&
@@ -235,8 +250,9 @@ bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, Offset
 
 void splitSheets(Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch) {
   if (neighborhood.neighbors.empty()) return;
-  // Of scan lines far apart, each that bends lies in a plane of its own, which is no sheet.
-  if (neighborhood.k > few_neighbors.back() && liesOnOneLine(neighborhood.axes_of_few.back())) return;
+  if (offsets.count() > few_neighbors.back() && liesOnOneLine(neighborhood.axes_of_few.back()) &&
+      isAlongOneLine(offsets.view()))
+    return;
   const PrincipalAxes before = neighborhood.axes;
   scratch.all.clear();
   cutAlongPlanes(before, neighborhood, offsets, scratch);
