@@ -59,6 +59,7 @@ struct Curvatures {
 /// orientedFrames()
 /// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, active points whose
 /// positions or frames are not finite, or options out of range
+/// @throws SolverFailure when the Gaussian curvature overflows, at extents below 1e-150 or so
 /// @throws Cancelled when `options.progress` returns false
 Curvatures curvatures(const Laplacian& laplacian, const CurvatureOptions& options = {});
 /// Computes curvatures with the caller's frames, for meshes those of meshFrames(); otherwise as without.

@@ -56,10 +56,11 @@ ScanStructure ringStructure(const Points& points, std::vector<int> ring,
 ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 /// How densely the pixels of an organized cloud are filled around its points: the share of pixels that hold a point, in
-/// the 5 x 5 pixels around a point, averaged over the points. Holes hardly change it, however large; with half of the
-/// pixels missing at random it is 0.5. Rows and columns without any point are left out, as in a build, unless the rows
-/// that remain are more than 12 times as far apart as the columns, or the other way round. Points at the origin count
-/// as missing.
+/// the 5 x 5 pixels around a point, averaged over the points of the sparsest of 4 x 4 parts of the image; a part counts
+/// if it holds at least half as much of the surface as one does on average. Holes hardly change it, however large; with
+/// half of the pixels missing at random, in all of the image or in one part, it is about 0.5. Rows and columns without
+/// any point are left out, as in a build, unless the rows that remain are more than 12 times as far apart as the
+/// columns, or the other way round. Points at the origin count as missing.
 /// @param points width x height rows, row by row
 /// @param origin position of the sensor, in the unit of the points
 /// @return in [0, 1]; 0 without a point or if `points` has another number of rows

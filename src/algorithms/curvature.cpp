@@ -269,6 +269,10 @@ Curvatures curvatures(const Laplacian& laplacian, const Frames& frames, const Cu
     result.first.row(i) = result.first.row(source);
     result.second.row(i) = result.second.row(source);
   }
+  if (result.principal.allFinite() && !result.gaussian.allFinite())
+    throw SolverFailure(std::string(curvature_name) +
+                        ": the product of the principal curvatures overflows, must not: the points lie too close "
+                        "together for their unit");
   result.report.seconds = watch.seconds();
   return result;
 }

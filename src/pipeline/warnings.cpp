@@ -26,7 +26,8 @@ std::string percent(double share) {
 void addSparseImage(double fill, std::vector<std::string>& all) {
   if (fill == 0 || fill >= least_pixel_fill) return;
   all.push_back("only " + percent(fill) +
-                " of the pixels near points hold points: as a plain cloud, without its pixels, it does better below " +
+                " of the pixels near points hold points, where the image is sparsest: as a plain cloud, without its "
+                "pixels, it does better below " +
                 percent(least_pixel_fill));
 }
 

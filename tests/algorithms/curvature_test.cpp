@@ -227,6 +227,16 @@ TEST(Curvature, OfFewPointsIsDefined) {
   }
 }
 
+TEST(Curvature, IsFiniteOrRefusedAtAnyScale) {
+  const Points points = shapes::sphere(200).points;
+  for (const double scale : {1e100, 1e-100}) {
+    const Curvatures of_scaled = curvatures(pointCloudLaplacian(scale * points));
+    EXPECT_TRUE(of_scaled.gaussian.allFinite());
+    EXPECT_NEAR(scale * scale * of_scaled.gaussian.mean(), 1, 1e-3);
+  }
+  EXPECT_THROW(curvatures(pointCloudLaplacian(1e-200 * points)), SolverFailure);
+}
+
 TEST(Curvature, RefusesWhatDoesNotFit) {
   const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(100).points);
   Laplacian without = laplacian;

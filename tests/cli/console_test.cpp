@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <set>
 
 #include "subcommands.h"
@@ -152,6 +153,75 @@ TEST_F(ConsoleOutput, JsonHasTheWarningsThatStderrHas) {
     ASSERT_EQ(said["warnings"].size(), 1u);
     EXPECT_TRUE(contains(result.err, said["warnings"][0].get<std::string>())) << result.err;
   }
+}
+
+/// An organized cloud of a plane of which every second pixel is missing.
+std::string sparseImage() {
+  constexpr int width = 40, height = 30;
+  std::string text =
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 40\nHEIGHT 30\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1200\nDATA ascii\n";
+  std::mt19937_64 generator(1);
+  for (int i = 0; i < width * height; ++i) {
+    const bool is_missing = generator() % 2 == 0 && i > 1;
+    text += is_missing
+                ? "nan nan nan\n"
+                : std::to_string((i % width - 19.5) / 30) + ' ' + std::to_string((i / width - 14.5) / 30) + " 1\n";
+  }
+  return text;
+}
+
+/// A sheet of 9 x 9 points, which bulges; no triangle has further points as a corner.
+std::string sheet(int points) {
+  std::string text = "OFF\n" + std::to_string(points) + " 128 0\n";
+  for (int i = 0; i < points; ++i)
+    text += std::to_string(i / 9) + ' ' + std::to_string(i % 9) + ' ' +
+            std::to_string(i < 81 ? (i / 9) * (8 - i / 9) * (i % 9) * (8 - i % 9) / 200. : 5.) + '\n';
+  for (int i = 0; i < 72; ++i) {
+    if (i % 9 == 8) continue;
+    const std::string a = std::to_string(i), b = std::to_string(i + 9), c = std::to_string(i + 10);
+    text += "3 " + a + ' ' + b + ' ' + c + "\n3 " + a + ' ' + c + ' ' + std::to_string(i + 1) + '\n';
+  }
+  return text;
+}
+
+TEST_F(ConsoleOutput, EveryCommandTellsWhatMustBeKnownOfTheSurface) {
+  const auto expectWarning = [&](std::vector<std::string> command, const std::string& word) {
+    SCOPED_TRACE(testing::PrintToString(command));
+    command.insert(command.end(), {"--out", in("out"), "--json"});
+    const Result result = runTufted(command);
+    ASSERT_EQ(result.code, 0) << result.err;
+    const nlohmann::json warnings = nlohmann::json::parse(result.out)["warnings"];
+    ASSERT_EQ(warnings.size(), 1u) << warnings;
+    EXPECT_TRUE(contains(warnings[0], word)) << warnings;
+    EXPECT_EQ(result.err, "tufted: " + warnings[0].get<std::string>() + "\n");
+  };
+  const std::string image = dir_.write("image.pcd", sparseImage()), mesh = dir_.write("mesh.off", sheet(200));
+  const std::string of_image = "of the pixels near points hold points", of_mesh = "119 of 200 points take no part";
+  for (const std::vector<std::string>& command : commands) {
+    std::vector<std::string> words = command;
+    words.insert(words.begin() + 1, image);
+    words.insert(words.end(), {"--structure", "image"});
+    expectWarning(words, of_image);
+    if (command[0] == "denoise") continue;  // takes clouds only
+    words = command;
+    words.insert(words.begin() + 1, mesh);
+    expectWarning(words, of_mesh);
+  }
+  const std::string few = dir_.write("few.txt", "0\n8\n72\n"), moved = dir_.write("moved.txt", "0\n8\n72 72 0 1\n");
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"parameterize", mesh},
+                                             {"minimal", mesh},
+                                             {"map", mesh, "--from", dir_.write("sheet.off", sheet(81))},
+                                             {"deform", mesh, "--handles", moved},
+                                             {"weights", mesh, "--handles", few},
+                                             {"signed-distance", mesh, "--curve", few}})
+    expectWarning(command, of_mesh);
+  // What the folder of a Laplacian tells is told again.
+  ASSERT_EQ(runTufted({"laplacian", mesh, "--format", "npz,ply,cover", "--out", in("folder")}).code, 0);
+  expectWarning({"distance", "--operator", in("folder"), "--source", "0"}, of_mesh);
+  const Result looked = runTufted({"validate", mesh, "--json"});
+  EXPECT_TRUE(contains(nlohmann::json::parse(looked.out)["files"][0]["warnings"].dump(), of_mesh)) << looked.out;
 }
 
 TEST_F(ConsoleOutput, DetailsAreForThoseWhoAskForThem) {

@@ -218,6 +218,12 @@ TEST_F(SpectrumCommand, HksWritesSignaturesOfHeatAndOfWaves) {
   for (const char* energies : {"1", "2,1", "nan,1", "1,inf", "1,1.0000000000000002"})
     expectRefusal({"hks", file, "--wave", "--energies", energies}, std::string("--energies ") + energies);
   expectRefusal({"hks", file, "--energies", "1,2"}, "--energies requires --wave");
+  // Energies are about those of the eigenvalues.
+  for (const char* energies : {"-40,-30", "40,50"})
+    expectRefusal({"hks", file, "--wave", "--energies", energies}, "lie outside those of the");
+  const Result wide = runTufted({"hks", file, "--wave", "--energies", "-20,20", "--out", in("wide")});
+  EXPECT_EQ(wide.code, 0) << wide.err;
+  EXPECT_TRUE(isOneLine(wide.err) && contains(wide.err, "reach beyond those of the")) << wide.err;
   expectRefusal({"hks", file, "--times", "1", "--samples", "3"}, "--samples");
   expectRefusal({"hks", file, "--times", "1", "--wave"}, "--wave");
   for (const char* times : {"-1", "0", "nan", "1,nan", "inf", "1,x"})

@@ -135,10 +135,12 @@ TEST_F(Structures, TheLengthOfTheQuaternionDoesNotMatter) {
     EXPECT_EQ(result.code, 0) << result.err;
     return readAll(dir_ / "out/L.npz");
   };
-  const std::string turned = matrix("1 1 0 0");  // a quarter turn, so that rings are upright
-  EXPECT_FALSE(matrix("1 0 0 0") == turned);
-  for (const char* quaternion : {"1e-200 1e-200 0 0", "1e200 1e200 0 0", "-3 -3 0 0"})
-    EXPECT_TRUE(matrix(quaternion) == turned) << quaternion;
+  const std::string tilted = matrix("2 1 0 0");  // by 53 degrees
+  EXPECT_FALSE(matrix("1 0 0 0") == tilted);
+  // 2^-600 and 2^600 times that.
+  for (const char* quaternion : {"4.819839730205768e-181 2.409919865102884e-181 0 0",
+                                 "8.299031137761986e+180 4.149515568880993e+180 0 0", "-6 -3 0 0"})
+    EXPECT_TRUE(matrix(quaternion) == tilted) << quaternion;
 }
 
 TEST_F(Structures, TakesTheAzimuthsOfAFileWhoseRingsItHasToFind) {

@@ -7,9 +7,16 @@
 #include <memory>
 
 #include "pcl/clouds.h"
+#include "shapes/random.h"
 #include "shapes/shapes.h"
 #include "support/compare.h"
+#include "tufted/pcl/geodesic_distance.h"
 #include "tufted/pcl/laplacian_estimation.h"
+#include "tufted/pcl/laplacian_smoothing.h"
+#include "tufted/pcl/oriented_normal_estimation.h"
+#include "tufted/pcl/surface_denoising.h"
+#include "tufted/pcl/surface_segmentation.h"
+#include "tufted/pcl/surface_triangulation.h"
 
 namespace tufted::build_settings_test {
 namespace {
@@ -122,6 +129,60 @@ TEST(BuildSettings, AfterAMistakeReturnsAnEmptyLaplacian) {
   ASSERT_NE(result, nullptr);
   EXPECT_EQ(result->M.size(), 0);
   EXPECT_EQ(result->L.rows(), 0);
+}
+
+TEST(BuildSettings, EveryClassSaysOnPclsConsoleWhatMustBeKnownOfTheSurface) {
+  shapes::Random random(103);
+  Points volume(600, 3);
+  for (double& x : volume.reshaped()) x = random.uniform();
+  const auto cloud = cloudOf(volume);
+  const auto expectWarning = [&](const std::string& name, auto& object, const auto& compute) {
+    object.setInputCloud(cloud);
+    const std::string console = consoleOf([&] { compute(); });
+    EXPECT_NE(console.find("[tufted::" + name + "] the neighbourhoods of "), std::string::npos) << console;
+    EXPECT_NE(console.find("as thick as wide"), std::string::npos) << console;
+  };
+  Estimation estimation;
+  expectWarning("LaplacianEstimation", estimation, [&] { estimation.compute(); });
+  LaplacianSmoothing<pcl::PointXYZ> smoothing;
+  pcl::PointCloud<pcl::PointXYZ> smoothed;
+  expectWarning("LaplacianSmoothing", smoothing, [&] { smoothing.filter(smoothed); });
+  GeodesicDistance<pcl::PointXYZ> distance;
+  pcl::PointCloud<pcl::PointXYZI> distances;
+  distance.setSources({0});
+  expectWarning("GeodesicDistance", distance, [&] { distance.compute(distances); });
+  SurfaceSegmentation<pcl::PointXYZ> segmentation;
+  std::vector<pcl::PointIndices> segments;
+  expectWarning("SurfaceSegmentation", segmentation, [&] { segmentation.segment(segments); });
+  OrientedNormalEstimation<pcl::PointXYZ, pcl::Normal> normals;
+  pcl::PointCloud<pcl::Normal> computed_normals;
+  expectWarning("OrientedNormalEstimation", normals, [&] { normals.compute(computed_normals); });
+  SurfaceTriangulation<pcl::PointXYZ> triangulation;
+  std::vector<pcl::Vertices> triangles;
+  expectWarning("SurfaceTriangulation", triangulation, [&] { triangulation.reconstruct(triangles); });
+}
+
+TEST(BuildSettings, FiltersSayOnPclsConsoleThatPixelsAreMissing) {
+  shapes::Random random(104);
+  Points points(80 * 60, 3);
+  for (int i = 0; i < points.rows(); ++i) {
+    points.row(i) << (i % 80 - 40) / 50., (i / 80 - 30) / 50., 1;
+    if (random.uniform() < 0.6) points.row(i).setConstant(nan);
+  }
+  const auto cloud = cloudOf(points);
+  cloud->width = 80;
+  cloud->height = 60;
+  pcl::PointCloud<pcl::PointXYZ> output;
+  const auto expectWarning = [&](auto& filter) {
+    filter.setInputCloud(cloud);
+    filter.setOrganizedSearch(true);
+    const std::string console = consoleOf([&] { filter.filter(output); });
+    EXPECT_NE(console.find("of the pixels near points hold points"), std::string::npos) << console;
+  };
+  LaplacianSmoothing<pcl::PointXYZ> smoothing;
+  expectWarning(smoothing);
+  SurfaceDenoising<pcl::PointXYZ> denoising;
+  expectWarning(denoising);
 }
 
 }  // namespace

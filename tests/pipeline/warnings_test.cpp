@@ -82,7 +82,9 @@ TEST(Warnings, TellOfImagesWhosePixelsAreMissing) {
     options.structure = &image;
     const Report report = pointCloudLaplacian(points, options).report;
     const DenoiseReport denoised = denoise(points, {.structure = &image}).report;
-    EXPECT_NEAR(report.pixel_fill, 1 - missing, 0.03);
+    // The least of 16 parts, of which each has 300 pixels.
+    EXPECT_LE(report.pixel_fill, 1 - missing);
+    EXPECT_GE(report.pixel_fill, 1 - missing - 4 * std::sqrt(missing * (1 - missing) / (width * height / 16)));
     EXPECT_EQ(denoised.pixel_fill, report.pixel_fill);
     EXPECT_EQ(pixelFill(points, width, height), report.pixel_fill);
     for (const std::string& said : {onlyOf(warnings(report)), onlyOf(warnings(denoised))}) {

@@ -92,6 +92,22 @@ Files in DIR, which replace older ones when all are complete:
     }
   }
 
+  /// Refuses energies of which none lies among those of the eigenvalues, and warns if some are farther from all
+  /// eigenvalues than the kernel is wide, where the nearest one counts alone.
+  void checkEnergies(const tufted::Spectrum& spectrum, Results& results) const {
+    if (range.empty()) return;
+    const tufted::VectorXd known = tufted::waveEnergies(spectrum, 2);
+    const std::string text = "--energies " + energies,
+                      of_eigenvalues = "of the " + std::to_string(spectrum.values.size()) + " eigenvalues, " +
+                                       numberText(known[0]) + " to " + numberText(known[1]);
+    if (range[0] > known[1] || range[1] < known[0])
+      throw tufted::InvalidInput(text + ": lie outside those " + of_eigenvalues);
+    const double width = 7 * (range[1] - range[0]) / (samplesOrDefault() - 1);
+    if (range[0] < known[0] - width || range[1] > known[1] + width)
+      results.warnings.push_back(text + ": reach beyond those " + of_eigenvalues +
+                                 ": there the signature is that of the nearest eigenvalue");
+  }
+
   /// The signature, and its times or energies.
   std::vector<tufted::ResultArray> signatures(const tufted::Laplacian& laplacian,
                                               const tufted::Spectrum& spectrum) const {
@@ -114,6 +130,7 @@ Files in DIR, which replace older ones when all are complete:
     const tufted::Spectrum spectrum = positivePairs(pairs, source);
     checkTimes(spectrum, source);
     Results results;
+    checkEnergies(spectrum, results);
     results.arrays = signatures(source.laplacian, spectrum);
     results.summary.add(wave ? "energies" : "times", "%ld per point, of %ld eigenvalues up to %.6g",
                         static_cast<long>(results.arrays[0].values.cols()), static_cast<long>(spectrum.values.size()),
