@@ -135,7 +135,7 @@ Patch patchOf(Faces faces, const Workers& workers) {
     for (int& corner : face) corner = patch.number_of.find(corner)->second;
   StoredCover local({vertices, std::move(faces.corners), {}, std::move(faces.length)});
   patch.faces = distinctFaces(local, vertices, workers);
-  patch.exponent = unitOf(local);
+  patch.exponent = unitOf(patch.faces);
   return patch;
 }
 
