@@ -1,13 +1,13 @@
 #include "algorithms/fine_normals.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/power_of_two.h"
 #include "operators/rings.h"
 #include "stars/offsets.h"
 #include "stars/quadratic_fit.h"
@@ -27,56 +27,13 @@ constexpr double least_agreement = 0.5;
 /// Squared distances that differ by less than this part count as equal, so that a lattice has one answer in any order.
 constexpr double equal_distances = 1e-9;
 
-/// A plane or quadratic fitted to some points.
-struct Fit {
-  Eigen::Vector3d normal;
-  double variance;  ///< of the heights over it, by degrees of freedom
+/// An offset with its squared length.
+struct ByLength {
+  double square;
+  Eigen::RowVector3d offset;
+
+  friend bool operator<(const ByLength& a, const ByLength& b) { return a.square < b.square; }
 };
-
-/// Fits a plane to p and the points at some offsets from it.
-std::optional<Fit> planeThrough(const Offsets& offsets) {
-  const PrincipalAxes axes = principalAxes(offsets);
-  if (!(axes.variance[1] > singular * axes.variance[2])) return std::nullopt;
-  const double count = offsets.count + 1;
-  return Fit{axes.normal, std::max(0.0, axes.variance[0]) * axes.extent * axes.extent * count / (count - 3)};
-}
-
-/// Fits a quadratic over the plane of a normal, and once more over its own tangent plane.
-std::optional<Fit> quadraticThrough(const Offsets& offsets, Eigen::Vector3d normal) {
-  double variance = 0;
-  for (int round = 0; round < 2; ++round) {
-    const HeightFit fit = fitHeights(heightMoments(offsets, normal, 1));
-    if (!fit.is_valid) return std::nullopt;
-    normal = normalOf(fit, normal);
-    variance = fit.variance;
-  }
-  return Fit{normal, variance};
-}
-
-/// Offsets from p to the points of its first two rings, divided by the longest, in ascending length.
-void takeOffsets(int p, const Points& positions, Rings& rings, std::vector<Eigen::RowVector3d>& offsets) {
-  rings.start(p);
-  rings.grow();
-  rings.grow();
-  offsets.clear();
-  for (const int q : rings.points()) {
-    if (q != p) offsets.emplace_back(positions.row(q) - positions.row(p));
-  }
-  // Against overflow and underflow of squares.
-  double extent = 0;
-  for (const Eigen::RowVector3d& d : offsets) extent = std::max(extent, d.stableNorm());
-  for (Eigen::RowVector3d& d : offsets) d /= extent;
-  std::sort(offsets.begin(), offsets.end(),
-            [](const Eigen::RowVector3d& a, const Eigen::RowVector3d& b) { return a.squaredNorm() < b.squaredNorm(); });
-}
-
-/// Number of the nearest `fitted_neighbors` offsets, and of those as long as the last of them.
-int countFew(const std::vector<Eigen::RowVector3d>& offsets) {
-  std::size_t count = std::min(fitted_neighbors, offsets.size());
-  const double farthest = (1 + equal_distances) * offsets[count - 1].squaredNorm();
-  while (count < offsets.size() && offsets[count].squaredNorm() <= farthest) ++count;
-  return static_cast<int>(count);
-}
 
 /// The normal or its opposite, the same for both: fits on either side round differently.
 Eigen::Vector3d upright(const Eigen::Vector3d& normal) {
@@ -84,35 +41,111 @@ Eigen::Vector3d upright(const Eigen::Vector3d& normal) {
   return decides < 0 ? Eigen::Vector3d(-normal) : normal;
 }
 
+/// Fits the normals of up to eight points at a time, as many as the kernels solve together.
+class FineNormals {
+ public:
+  FineNormals(const Laplacian& laplacian, Frames& frames)
+      : positions_(laplacian.positions), frames_(frames), rings_(laplacian.L) {}
+
+  /// Adds a point, if it has neighbours.
+  void add(int p) {
+    takeOffsets(p);
+    if (sorted_.empty()) return;
+    points_[count_] = p;
+    nearest_[count_] = countNearest();
+    offsets_[count_].fill(static_cast<int>(std::ssize(sorted_)), [&](int i) { return sorted_[i].offset; });
+    if (++count_ == kernel_packet) fit();
+  }
+
+  /// Sets the normals of the points that were added.
+  void fit() {
+    // Quadratics over the planes of the normals, then over their own tangent planes.
+    std::array<Eigen::Vector3d, kernel_packet> bent;
+    std::array<HeightMoments, kernel_packet> moments;
+    std::array<HeightFit, kernel_packet> fits;
+    for (std::size_t i = 0; i < count_; ++i) bent[i] = upright(frames_.normals.row(points_[i]));
+    for (int round = 0; round < 2; ++round) {
+      for (std::size_t i = 0; i < count_; ++i) moments[i] = heightMoments(offsets_[i].view(), bent[i], 1);
+      fitHeights({moments.data(), count_}, fits);
+      for (std::size_t i = 0; i < count_; ++i)
+        if (fits[i].is_valid) bent[i] = normalOf(fits[i], bent[i]);
+    }
+    std::array<Covariance, kernel_packet> covariances;
+    std::array<PrincipalAxes, kernel_packet> axes;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Offsets all = offsets_[i].view();
+      covariances[i] = covarianceOf({nearest_[i], all.x, all.y, all.z});
+    }
+    principalAxes({covariances.data(), count_}, axes);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Eigen::Vector3d& variance = axes[i].variance;
+      if (!fits[i].is_valid || !(variance[1] > singular * variance[2])) continue;
+      const double count = nearest_[i] + 1, unit = axes[i].extent * axes[i].extent;
+      const double of_plane = std::max(0.0, variance[0]) * unit * count / (count - 3);  // by degrees of freedom
+      take(points_[i], of_plane <= fits[i].variance ? axes[i].normal : bent[i]);
+    }
+    count_ = 0;
+  }
+
+ private:
+  /// Offsets from p to the points of its first two rings, over a power of two near the extent, in ascending length.
+  void takeOffsets(int p) {
+    rings_.start(p);
+    rings_.grow();
+    rings_.grow();
+    sorted_.clear();
+    double extent = 0;
+    for (const int q : rings_.points()) {
+      if (q == p) continue;
+      const Eigen::RowVector3d offset = positions_.row(q) - positions_.row(p);
+      extent = std::max(extent, offset.cwiseAbs().maxCoeff());
+      sorted_.push_back({0, offset});
+    }
+    const double unit = 1 / magnitudeOf(extent);  // against overflow and underflow of squares
+    for (auto& [square, offset] : sorted_) {
+      offset *= unit;
+      square = offset.squaredNorm();
+    }
+    std::sort(sorted_.begin(), sorted_.end());
+  }
+
+  /// Number of the nearest `fitted_neighbors` offsets, and of those as long as the last of them.
+  int countNearest() const {
+    std::size_t count = std::min(fitted_neighbors, sorted_.size());
+    const double farthest = (1 + equal_distances) * sorted_[count - 1].square;
+    while (count < sorted_.size() && sorted_[count].square <= farthest) ++count;
+    return static_cast<int>(count);
+  }
+
+  /// Sets the normal of p to a fitted one with the same sign. The tangent turns with it, about the axis perpendicular
+  /// to both normals.
+  void take(int p, const Eigen::Vector3d& found) {
+    const Eigen::Vector3d before = frames_.normals.row(p), tangent = frames_.tangents.row(p);
+    const double cosine = found.dot(before);
+    if (!(std::abs(cosine) >= least_agreement)) return;
+    const Eigen::Vector3d normal = cosine < 0 ? Eigen::Vector3d(-found) : found;
+    frames_.normals.row(p) = normal;
+    frames_.tangents.row(p) = tangent - normal.dot(tangent) / (1 + before.dot(normal)) * (before + normal);
+  }
+
+  const Points& positions_;
+  Frames& frames_;
+  Rings rings_;
+  std::vector<ByLength> sorted_;                         ///< of the last point
+  std::size_t count_ = 0;                                ///< of the points that wait for fit()
+  std::array<int, kernel_packet> points_{}, nearest_{};  ///< nearest_: number of the nearest offsets
+  std::array<OffsetBuffer, kernel_packet> offsets_;
+};
+
 }  // namespace
 
 void takeFineNormals(const Laplacian& laplacian, int threads, const Progress& progress, Frames& frames) {
   const Workers workers(threads, progress);
-  struct Scratch {
-    Rings rings;
-    std::vector<Eigen::RowVector3d> offsets;
-    OffsetBuffer buffer;
-  };
-  std::vector<Scratch> scratches(static_cast<std::size_t>(workers.count()), {Rings(laplacian.L), {}, {}});
+  std::vector<FineNormals> normals(static_cast<std::size_t>(workers.count()), {laplacian, frames});
   workers.forBlocks("normals", frames.normals.rows(), costly_block, [&](std::int64_t begin, std::int64_t end, int w) {
-    auto& [rings, offsets, buffer] = scratches[w];
-    for (auto p = static_cast<int>(begin); p < end; ++p) {
-      if (laplacian.status[p] != PointStatus::active) continue;
-      takeOffsets(p, laplacian.positions, rings, offsets);
-      if (offsets.empty()) continue;
-      buffer.fill(static_cast<int>(offsets.size()), [&](int i) { return scratches[w].offsets[i]; });
-      const Offsets all = buffer.view(), nearest{countFew(offsets), all.x, all.y, all.z};
-      const Eigen::Vector3d before = frames.normals.row(p), tangent = frames.tangents.row(p);
-      const std::optional<Fit> bent = quadraticThrough(all, upright(before)), near = planeThrough(nearest);
-      if (!bent || !near) continue;
-      const Eigen::Vector3d& found = near->variance <= bent->variance ? near->normal : bent->normal;
-      const double cosine = found.dot(before);
-      if (!(std::abs(cosine) >= least_agreement)) continue;
-      const Eigen::Vector3d normal = cosine < 0 ? Eigen::Vector3d(-found) : found;
-      frames.normals.row(p) = normal;
-      // The tangent turns with the normal, about the axis perpendicular to both normals.
-      frames.tangents.row(p) = tangent - normal.dot(tangent) / (1 + before.dot(normal)) * (before + normal);
-    }
+    for (auto p = static_cast<int>(begin); p < end; ++p)
+      if (laplacian.status[p] == PointStatus::active) normals[w].add(p);
+    normals[w].fit();
   });
 }
 

@@ -331,13 +331,13 @@ MarchResult march(const MarchFaces& faces, bool split, std::vector<MarchStart> s
   return overFaces(faces, split, sources, maximum, workers, [&](auto march) { return march.fromEach(starts); });
 }
 
-MarchResult unreached(const MarchFaces& faces, bool split) {
-  return unreached(split ? SplitFaces{faces}.size() : WholeFaces{faces}.size());
+MarchResult unreached(const MarchFaces& faces) {
+  return unreached(WholeFaces{faces}.size());
 }
 
-void marchWhereNearer(const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts,
-                      const Workers& workers, const SourcePositions& sources, MarchResult& result) {
-  overFaces(faces, split, sources, infinity, workers, [&](auto march) { march.where(starts, result); });
+void marchWhereNearer(const MarchFaces& faces, const std::vector<MarchStart>& starts, const Workers& workers,
+                      const SourcePositions& sources, MarchResult& result) {
+  overFaces(faces, false, sources, infinity, workers, [&](auto march) { march.where(starts, result); });
 }
 
 MarchResult marchUntil(int vertex, const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts,

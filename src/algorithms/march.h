@@ -34,13 +34,14 @@ struct MarchResult {
 MarchResult march(const MarchFaces& faces, bool split, std::vector<MarchStart> starts, double maximum,
                   const Workers& workers, const SourcePositions& sources = {});
 
-/// The result of no source: infinite distances.
-MarchResult unreached(const MarchFaces& faces, bool split);
+/// The result of no source on faces that are not cut: infinite distances.
+MarchResult unreached(const MarchFaces& faces);
 
-/// Marches from one more source, where it may be nearer than the sources in a result, and adds it there.
+/// Marches from one more source on faces that are not cut, where it may be nearer than the sources in a result, and
+/// adds it there.
 /// @param sources with the positions of all sources, by number
-void marchWhereNearer(const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts,
-                      const Workers& workers, const SourcePositions& sources, MarchResult& result);
+void marchWhereNearer(const MarchFaces& faces, const std::vector<MarchStart>& starts, const Workers& workers,
+                      const SourcePositions& sources, MarchResult& result);
 
 /// Marches from starts of one source until a vertex is frozen. Distances of nearer ones are final except for the last
 /// step of march(), which limits them by those of neighbours; others may be too large.

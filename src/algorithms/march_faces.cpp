@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/cover_source.h"
+#include "base/power_of_two.h"
 #include "base/stage_clock.h"
 #include "cover/geometry.h"
 #include "tufted/errors.h"
@@ -120,11 +121,12 @@ MarchFaces wholeFaces(std::vector<DistinctFace> faces, int vertices, int exponen
   result.exponent = exponent;
   result.positions = std::move(positions);
   result.faces.resize(faces.size());
+  const PowerOfTwo unit(-exponent);
   workers.forBlocks("faces", std::ssize(faces), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto f = begin; f < end; ++f) {
       MarchFace& face = result.faces[f];
       face.corners = faces[f].corners;
-      for (int k = 0; k < 3; ++k) face.opposite[k] = std::ldexp(faces[f].opposite[k], -exponent);
+      for (int k = 0; k < 3; ++k) face.opposite[k] = unit.times(faces[f].opposite[k]);
       face.signed_area = 2 * triangleArea(face.opposite[0], face.opposite[1], face.opposite[2]);
       if (!result.positions.empty() && isBent(face, result.positions)) face.signed_area = -face.signed_area;
     }
@@ -170,9 +172,10 @@ std::size_t MarchFaces::bytes() const {
 
 MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponent, int split, const Workers& workers,
                       const Points& positions, const std::vector<int>& number) {
+  const PowerOfTwo unit(-exponent);
   std::vector<Eigen::Vector3d> scaled(static_cast<std::size_t>(positions.rows()));
   for (Eigen::Index i = 0; i < positions.rows(); ++i)
-    scaled[number.empty() ? i : number[i]] = scaledPosition(positions.row(i), exponent);
+    scaled[number.empty() ? i : number[i]] = scaledPosition(positions.row(i), unit);
   MarchFaces result = wholeFaces(std::move(faces), vertices, exponent, workers, std::move(scaled));
   for (int times = 1; times < split; ++times) result = splitInFour(result, workers);
   return result;
@@ -181,11 +184,11 @@ MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponen
 MarchFaces marchFaces(const Laplacian& laplacian, int split, const Workers& workers, const std::vector<int>& number) {
   const CoverSource& cover = *laplacian.cover_source;
   const auto vertices = static_cast<int>(laplacian.status.size());
-  const int exponent = unitOf(cover);
+  std::vector<DistinctFace> faces = distinctFaces(cover, vertices, workers, number);
+  const int exponent = unitOf(faces);
   const Points unknown;
   const Points& positions = number.empty() ? unknown : laplacian.positions;
-  return marchFaces(distinctFaces(cover, vertices, workers, number), vertices, exponent, split, workers, positions,
-                    number);
+  return marchFaces(std::move(faces), vertices, exponent, split, workers, positions, number);
 }
 
 std::vector<int> numbersByFaces(const Laplacian& laplacian) {

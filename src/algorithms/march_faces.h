@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/power_of_two.h"
 #include "operators/distinct_faces.h"
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/laplacian.h"
@@ -81,10 +82,9 @@ MarchFaces marchFaces(std::vector<DistinctFace> faces, int vertices, int exponen
 MarchFaces marchFaces(const Laplacian& laplacian, int split, const Workers& workers,
                       const std::vector<int>& number = {});
 
-/// A position in units of 2^exponent.
-inline Eigen::Vector3d scaledPosition(const Eigen::RowVector3d& position, int exponent) {
-  return {std::ldexp(position.x(), -exponent), std::ldexp(position.y(), -exponent),
-          std::ldexp(position.z(), -exponent)};
+/// A position times a power of two.
+inline Eigen::Vector3d scaledPosition(const Eigen::RowVector3d& position, const PowerOfTwo& unit) {
+  return {unit.times(position.x()), unit.times(position.y()), unit.times(position.z())};
 }
 
 /// Sets `loop_end` from the gluing of the cover. Flips leave edges from a vertex to itself at rims, half on the front

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/sort_by_number.h"
+
 namespace tufted {
 namespace {
 
@@ -30,7 +32,8 @@ struct AdjacentTriangle {
 };
 
 /// The neighbours of each triangle across its inner edges.
-std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Triangle>& triangles,
+/// @param points number of points
+std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Triangle>& triangles, std::size_t points,
                                                          TriangleReport& report) {
   std::vector<TriangleSide> sides;
   sides.reserve(3 * triangles.size());
@@ -40,9 +43,11 @@ std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Trian
       sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), a < b});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
+  sortByNumber(
+      sides, points, [](const TriangleSide& side) { return side.low; },
+      [](const TriangleSide& a, const TriangleSide& b) {
+        return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+      });
   std::vector<std::array<AdjacentTriangle, 3>> neighbors(triangles.size());
   const auto join = [&](const TriangleSide& from, const TriangleSide& to) {
     for (AdjacentTriangle& place : neighbors[from.triangle]) {
@@ -103,7 +108,8 @@ bool isInsideOut(const Laplacian& laplacian, const std::vector<Triangle>& triang
 }  // namespace
 
 void orientTriangles(const Laplacian& laplacian, std::vector<Triangle>& triangles, TriangleReport& report) {
-  const std::vector<std::array<AdjacentTriangle, 3>> neighbors = neighborsOf(triangles, report);
+  const std::vector<std::array<AdjacentTriangle, 3>> neighbors =
+      neighborsOf(triangles, laplacian.status.size(), report);
   const auto turn = [](Triangle& corners) { std::swap(corners[1], corners[2]); };
   std::vector<std::uint8_t> seen(triangles.size(), 0), turned(triangles.size(), 0);
   std::vector<int> component;

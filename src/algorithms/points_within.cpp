@@ -30,6 +30,9 @@ constexpr const char* function = "pointsWithin";
 /// Faces are collected up to this many longest edges of the source beyond the radius, as flips span one or two.
 /// isComplete() finds out if faces are missing; with 6 a query takes 1.5 times as long.
 constexpr double margin_in_spacings = 3;
+/// Tries, each with twice the margin of the one before: in a depth image points lie farther apart behind the source.
+/// Then the whole cover is built.
+constexpr int most_tries = 3;
 /// The areas around a point by the collected faces and by the whole cover are equal up to this part, as sums run in
 /// different orders.
 constexpr double same_area = 1e-9;
@@ -85,12 +88,13 @@ double spacingAt(const Laplacian& laplacian, int point) {
 
 /// Collects faces from the stars of points near the sources. Some may be missing, see isComplete(). False if there are
 /// no stars.
-bool facesFromStars(const Laplacian& laplacian, const std::vector<int>& sources, double radius, Faces& faces) {
+/// @param margin how far beyond the radius stars are collected
+bool facesFromStars(const Laplacian& laplacian, const std::vector<int>& sources, double radius, double margin,
+                    Faces& faces) {
   if (!laplacian.hasCover() || laplacian.cover_areas.size() == 0) return false;
   std::vector<Ball> balls;
   balls.reserve(sources.size());
-  for (const int source : sources)
-    balls.push_back({laplacian.positions.row(source), radius + margin_in_spacings * spacingAt(laplacian, source)});
+  for (const int source : sources) balls.push_back({laplacian.positions.row(source), radius + margin});
   return laplacian.cover_source->appendFacesNear(balls, faces.corners, faces.length);
 }
 
@@ -135,7 +139,7 @@ Patch patchOf(Faces faces, const Workers& workers) {
     for (int& corner : face) corner = patch.number_of.find(corner)->second;
   StoredCover local({vertices, std::move(faces.corners), {}, std::move(faces.length)});
   patch.faces = distinctFaces(local, vertices, workers);
-  patch.exponent = unitOf(local);
+  patch.exponent = unitOf(patch.faces);
   return patch;
 }
 
@@ -197,9 +201,12 @@ NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& so
   workers.report("march", 0);
   Patch patch;
   std::vector<double> distance;
-  Faces faces;
-  bool is_complete = facesFromStars(laplacian, known, radius, faces);
-  if (is_complete) {
+  double spacing = 0;
+  for (const int source : known) spacing = std::max(spacing, spacingAt(laplacian, source));
+  bool is_complete = false;
+  for (int tries = 0; tries < most_tries && !is_complete; ++tries, spacing *= 2) {
+    Faces faces;
+    if (!facesFromStars(laplacian, known, radius, margin_in_spacings * spacing, faces)) break;
     patch = patchOf(std::move(faces), workers);
     distance = distancesOn(laplacian, patch, known, radius, times, workers);
     is_complete =

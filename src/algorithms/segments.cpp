@@ -14,6 +14,7 @@
 #include "algorithms/crease_parts.h"
 #include "algorithms/march.h"
 #include "algorithms/march_faces.h"
+#include "base/infinity.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/require.h"
@@ -65,7 +66,8 @@ void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, c
   }
 }
 
-/// Voronoi cells of seeds that are added one by one.
+/// Voronoi cells of seeds that are added one by one. Distances on the triangles as they are find the places of seeds;
+/// for the cells the triangles are cut, as for any distance.
 class Cells {
  public:
   Cells(const Laplacian& laplacian, const Components& components, const SolverOptions& options)
@@ -77,12 +79,13 @@ class Cells {
         faces_(marchFaces(laplacian, split_, workers_, number_)),
         area_(components.sums(laplacian.M)),
         has_seed_(static_cast<std::size_t>(components.count), false),
-        nearest_(unreached(faces_, split_ > 0)) {}
+        nearest_(unreached(faces_)) {}
 
   void addSeed(int seed) {
     const int start = number_[seed], cell = static_cast<int>(seeds_.size());
     places_.push_back(faces_.positions[start]);
-    marchWhereNearer(faces_, split_ > 0, {{start, 0, cell}}, workers_, places_, nearest_);
+    starts_.push_back({start, 0, cell});
+    marchWhereNearer(faces_, {starts_.back()}, workers_, places_, nearest_);
     has_seed_[components_.of[seed]] = true;
     seeds_.push_back(seed);
   }
@@ -110,8 +113,9 @@ class Cells {
   /// The number of the nearest seed of each point; -1 on components without one.
   std::vector<int> cells() const {
     std::vector<int> cell(static_cast<std::size_t>(laplacian_.M.size()), -1);
+    const std::vector<int> nearest = march(faces_, split_ > 0, starts_, infinity, workers_, places_).source;
     for (const int i : components_.points)
-      if (has_seed_[components_.of[i]]) cell[i] = nearest_.source[number_[i]];
+      if (has_seed_[components_.of[i]]) cell[i] = nearest.empty() ? 0 : nearest[number_[i]];
     return cell;
   }
 
@@ -153,8 +157,9 @@ class Cells {
   const MarchFaces faces_;
   const VectorXd area_;  ///< of each component
   std::vector<bool> has_seed_;
-  MarchResult nearest_;  ///< seed of each vertex
+  MarchResult nearest_;  ///< of each vertex, on triangles that are not cut
   std::vector<int> seeds_;
+  std::vector<MarchStart> starts_;
   SourcePositions places_;  ///< of the seeds
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -15,7 +16,9 @@
 #include "algorithms/orient_triangles.h"
 #include "algorithms/triangle_candidates.h"
 #include "base/parallel.h"
+#include "base/sort_by_number.h"
 #include "base/stage_clock.h"
+#include "operators/check_cover.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -145,10 +148,11 @@ class HoleFiller {
 };
 
 /// Triangles that start at their smallest corner, sorted.
-Triangles sorted(std::vector<Corners> triangles) {
+Triangles sorted(std::vector<Corners> triangles, std::size_t points) {
   for (Corners& corners : triangles)
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-  std::sort(triangles.begin(), triangles.end());
+  sortByNumber(
+      triangles, points, [](const Corners& corners) { return corners[0]; }, std::less<>());
   Triangles result(std::ssize(triangles), 3);
   for (std::size_t f = 0; f < triangles.size(); ++f)
     for (int k = 0; k < 3; ++k) result(static_cast<Eigen::Index>(f), k) = triangles[f][k];
@@ -165,10 +169,11 @@ Triangles surfaceTriangles(const Laplacian& laplacian, const TriangleOptions& op
   if (!laplacian.hasCover())
     throw InvalidInput(std::string(surface_triangles_name) +
                        ": the Laplacian has no cover, must have one: keep_cover = true");
+  checkCover(surface_triangles_name, laplacian);
   const Stopwatch watch;
   const Workers workers(1, options.progress);
   TriangleReport made;
-  const std::vector<TriangleCandidate> candidates = triangleCandidates(laplacian.cover(), laplacian.positions);
+  const std::vector<TriangleCandidate> candidates = triangleCandidates(laplacian, workers);
   GrowingSurface fans(laplacian.frames, laplacian.positions, roomFor(candidates, laplacian.positions.rows()));
   takeCandidates(candidates, workers, fans);
   made.filled = HoleFiller(candidates, laplacian.positions, fans).fill();
@@ -180,7 +185,7 @@ Triangles surfaceTriangles(const Laplacian& laplacian, const TriangleOptions& op
   made.triangles = std::ssize(triangles);
   made.seconds = watch.seconds();
   if (report != nullptr) *report = made;
-  return sorted(std::move(triangles));
+  return sorted(std::move(triangles), laplacian.status.size());
 }
 
 }  // namespace tufted

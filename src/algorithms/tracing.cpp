@@ -79,7 +79,8 @@ struct GeodesicTracer::State {
   Frames frames;
 
   RowVector3d offset(int from, int to) const {
-    return scaledPosition(points.row(to), faces.exponent) - scaledPosition(points.row(from), faces.exponent);
+    const PowerOfTwo unit(-faces.exponent);
+    return scaledPosition(points.row(to), unit) - scaledPosition(points.row(from), unit);
   }
   bool isRim(int slot) const {
     const int edge = faces.edgeAt(slot);

@@ -2,10 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
-#include <numeric>
+
+#include "operators/distinct_faces.h"
 
 namespace tufted {
 
@@ -17,36 +16,23 @@ double circumradius(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, co
   return longest * (ab / longest) * (bc / longest) * (ca / longest) / (2 * twice_area);
 }
 
-std::vector<TriangleCandidate> triangleCandidates(const IntrinsicTriangulation& cover, const Points& positions) {
-  using Corners = std::array<int, 3>;
-  std::vector<std::int64_t> offset(static_cast<std::size_t>(cover.vertices) + 1, 0);
-  const auto isWhole = [](const Corners& face) {
-    return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
-  };
-  for (const Corners& face : cover.faces)
-    if (isWhole(face)) ++offset[*std::min_element(face.begin(), face.end()) + 1];
-  std::partial_sum(offset.begin(), offset.end(), offset.begin());
-  std::vector<std::array<int, 2>> others(static_cast<std::size_t>(offset.back()));  // the two larger corners
-  std::vector<std::int64_t> fill(offset.begin(), offset.end() - 1);
-  for (Corners face : cover.faces) {
-    if (!isWhole(face)) continue;
-    std::sort(face.begin(), face.end());
-    others[fill[face[0]]++] = {face[1], face[2]};
-  }
+std::vector<TriangleCandidate> triangleCandidates(const Laplacian& laplacian, const Workers& workers) {
+  const std::vector<DistinctFace> faces =
+      distinctFaces(*laplacian.cover_source, static_cast<int>(laplacian.status.size()), workers);
   double unit = 0;  // longest side of the cover
-  for (const double length : cover.length) unit = std::max(unit, length);
+  for (const DistinctFace& face : faces)
+    unit = std::max(unit, *std::max_element(face.opposite.begin(), face.opposite.end()));
+  const Points& positions = laplacian.positions;
   std::vector<TriangleCandidate> candidates;
-  candidates.reserve(others.size() / 4);
-  for (int a = 0; a < cover.vertices; ++a) {
-    const auto begin = others.begin() + offset[a], end = others.begin() + offset[a + 1];
-    std::sort(begin, end);
-    for (auto first = begin; first != end;) {
-      const auto next = std::find_if(first, end, [&](const auto& other) { return other != *first; });
-      const auto [b, c] = *first;
-      const double radius = circumradius(positions.row(a), positions.row(b), positions.row(c)) / unit;
-      candidates.push_back({{a, b, c}, static_cast<int>(next - first), static_cast<float>(radius)});
-      first = next;
+  for (const auto& [corners, opposite, copies] : faces) {
+    const auto [a, b, c] = corners;
+    if (a == b || b == c) continue;
+    if (!candidates.empty() && candidates.back().corners == corners) {
+      candidates.back().faces += copies;  // their sides differ, if only by rounding
+      continue;
     }
+    const double radius = circumradius(positions.row(a), positions.row(b), positions.row(c)) / unit;
+    candidates.push_back({corners, copies, static_cast<float>(radius)});
   }
   return candidates;
 }

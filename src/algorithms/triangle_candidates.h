@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "tufted/intrinsic_triangulation.h"
-#include "tufted/types.h"
+#include "base/parallel.h"
+#include "tufted/laplacian.h"
 
 namespace tufted {
 
@@ -15,9 +15,9 @@ struct TriangleCandidate {
   float radius;                ///< circumradius over the longest side of the cover
 };
 
-/// The distinct triples of different corners of a cover's faces, ascending.
-/// @param positions of the corners, finite
-std::vector<TriangleCandidate> triangleCandidates(const IntrinsicTriangulation& cover, const Points& positions);
+/// The distinct triples of different corners of the faces of the cover, ascending.
+/// @param laplacian with a cover, and with finite positions
+std::vector<TriangleCandidate> triangleCandidates(const Laplacian& laplacian, const Workers& workers);
 
 /// The radius of the circle through three points; infinite if they lie on a line.
 double circumradius(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Eigen::RowVector3d& c);

@@ -15,10 +15,14 @@ struct DistinctFace {
   std::array<double, 3> opposite;  ///< length of the side opposite each corner
   int copies = 1;                  ///< number of faces of the cover that are equal to this one
 
-  friend bool operator<(const DistinctFace& a, const DistinctFace& b) {
-    return a.corners != b.corners ? a.corners < b.corners : a.opposite < b.opposite;
+  /// As `==` of the corners, which calls memcmp(): a tenth of the time of a march's set-up.
+  bool hasCornersOf(const DistinctFace& other) const {
+    return corners[0] == other.corners[0] && corners[1] == other.corners[1] && corners[2] == other.corners[2];
   }
-  bool isCopyOf(const DistinctFace& other) const { return corners == other.corners && opposite == other.opposite; }
+  bool isCopyOf(const DistinctFace& other) const { return hasCornersOf(other) && opposite == other.opposite; }
+  friend bool operator<(const DistinctFace& a, const DistinctFace& b) {
+    return a.hasCornersOf(b) ? a.opposite < b.opposite : a.corners < b.corners;
+  }
 };
 
 /// One copy of a face.

@@ -36,8 +36,9 @@ double squaredSides(const SurfaceFace& face) {
 
 SurfaceFaces surfaceFaces(const CoverSource& cover, int vertices, double scale, const Workers& workers) {
   SurfaceFaces surface;
-  surface.exponent = unitOf(cover);
-  for (const DistinctFace& distinct : distinctFaces(cover, vertices, workers)) {
+  const std::vector<DistinctFace> faces = distinctFaces(cover, vertices, workers);
+  surface.exponent = unitOf(faces);
+  for (const DistinctFace& distinct : faces) {
     SurfaceFace face;
     if (layOut(distinct, scale * distinct.copies, surface.exponent, face)) surface.faces.push_back(face);
   }

@@ -158,6 +158,14 @@ TEST(Segments, OfABoxWithSeedsOnItsFacesAreTheFaces) {
   EXPECT_EQ(std::set<int>(found.seeds.begin(), found.seeds.end()), std::set<int>(seeds.begin(), seeds.end()));
 }
 
+TEST(Segments, OfSeedsThatAreFoundAreTheCellsOfTheseSeeds) {
+  for (const int points : {2000, 8000}) {  // whose triangles are cut twice and once
+    const Laplacian laplacian = pointCloudLaplacian(shapes::ellipsoid(points).points);
+    const Segments found = segments(laplacian, {.count = 9});
+    EXPECT_EQ(segments(laplacian, {.seeds = found.seeds}).labels, found.labels);
+  }
+}
+
 TEST(Segments, ArePermutedWithThePoints) {
   const Points points = shapes::ellipsoid(2000).points;
   std::vector<int> order(2000);
