@@ -9,7 +9,7 @@ namespace tufted {
 
 /// Options of meanCurvatureFlow().
 struct MeanCurvatureFlowOptions {
-  double time_step = 0.01;    ///< t > 0, as a share of the area of each connected component
+  double time_step = 0.01;    ///< t in [1e-200, 1e200], as a share of the area of each connected component
   int steps = 10;             ///< >= 1; coarse samples leave the sphere again after tens of steps
   SolverOptions solver = {};  ///< how the systems are solved, threads and progress
 };

@@ -74,8 +74,8 @@ class SignedDistanceSolver {
 
   /// Computes signed distances from the nearest of several curves and points.
   /// @param curves of vertices or places inside triangles, with at least two different places. Neighbours in a curve
-  /// should lie in one triangle, or about a spacing apart, see longSegmentsWarning(). Isolated and non-finite points
-  /// are skipped, and a place that coincides with the one before it.
+  /// should be joined by an edge of L, or lie about a spacing apart, see longSegmentsWarning(). Isolated and non-finite
+  /// points are skipped, and a place that coincides with the one before it.
   /// @param points marching: further sources, which have no side: distances from them are positive. Points alone have
   /// the distances of DistanceSolver.
   /// @return N values in the points' unit, positive to the left of the curves as seen from the side that normals point

@@ -269,10 +269,9 @@ Curvatures curvatures(const Laplacian& laplacian, const Frames& frames, const Cu
     result.first.row(i) = result.first.row(source);
     result.second.row(i) = result.second.row(source);
   }
-  if (result.principal.allFinite() && !result.gaussian.allFinite())
+  if (!(result.mean.allFinite() && result.principal.allFinite() && result.gaussian.allFinite()))
     throw SolverFailure(std::string(curvature_name) +
-                        ": the product of the principal curvatures overflows, must not: the points lie too close "
-                        "together for their unit");
+                        ": a curvature overflows, because the points are too small in their unit: scale them up");
   result.report.seconds = watch.seconds();
   return result;
 }

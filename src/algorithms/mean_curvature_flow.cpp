@@ -29,6 +29,9 @@ constexpr const char* flow_name = "meanCurvatureFlow";
 /// Masses below this part of the mean one are raised to it: points of collapsed triangles have none.
 constexpr double least_share = 1e-12;
 
+/// Shortest time step: areas over shorter ones overflow.
+constexpr double least_step = 1e-200;
+
 /// Below the exponents of all doubles.
 constexpr int least_exponent = -2000;
 
@@ -71,8 +74,8 @@ class Flow {
         return !options.solver.progress || options.solver.progress("flow", (before + fraction) / options.steps);
       };
       const VectorXd masses = massesOver(options.time_step, degrees), diagonal = masses + degrees;
-      // Only the diagonal changes, so that the order of the unknowns is found once.
-      if (system)
+      // Only the diagonal changes, so that a factor needs the order of the unknowns once.
+      if (system && !system->report().iterative)
         system->setDiagonal(diagonal);
       else
         system.emplace(LinearSystem::positiveDefinite(names, matrixWith(diagonal), options.solver));
@@ -178,8 +181,8 @@ Points meanCurvatureFlow(const Laplacian& laplacian, const TrianglesRef& triangl
                          const MeanCurvatureFlowOptions& options) {
   checkPositions(flow_name, laplacian);
   if (options.steps < 1) refuse(flow_name, "steps = " + std::to_string(options.steps) + ", must be at least 1");
-  if (!(options.time_step > 0 && std::isfinite(options.time_step)))
-    refuse(flow_name, "time_step = " + numberText(options.time_step) + ", must be finite and above 0");
+  if (!(options.time_step >= least_step && options.time_step <= 1 / least_step))
+    refuse(flow_name, "time_step = " + numberText(options.time_step) + ", must lie in [1e-200, 1e200]");
   const auto n = std::ssize(laplacian.status);
   for (Index t = 0; t < triangles.rows(); ++t)
     for (const int corner : triangles.row(t))

@@ -50,7 +50,7 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
 /// as far, unless that lies beyond the ball that is searched. Rounded azimuths pass as long as few points share one.
 bool azimuthsFit(const RankedScan& scan, const RankedCloud& cloud, const RingSearch& search, int k) {
   // Number of sampled points; each is compared with all points of three rings.
-  constexpr int samples = 128;
+  constexpr int samples = 512;
   // Mean number of points of a ring with the same azimuth at most: the search of a ring takes that many on each side.
   constexpr std::size_t most_at_once = 16;
   // Share of the sampled points. Azimuths blurred by a degree fit 0.93 of them; if a fifth of all is 0, as drivers

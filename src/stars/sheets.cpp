@@ -198,7 +198,9 @@ bool findSheet(const PrincipalAxes& before, Neighborhood& neighborhood, OffsetBu
 /// planes of the remaining neighbours.
 void cutAlongPlanes(const PrincipalAxes& before, Neighborhood& neighborhood, OffsetBuffer& offsets,
                     SheetScratch& scratch) {
-  for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
+  const bool is_along_line = offsets.count() > few_neighbors.back() && liesOnOneLine(neighborhood.axes_of_few.back()) &&
+                             isAlongOneLine(offsets.view());
+  for (std::size_t j = 0; !is_along_line && j < few_neighbors.size(); ++j) {
     if (std::ssize(neighborhood.neighbors) <= few_neighbors[j]) break;
     const PrincipalAxes& axes = neighborhood.axes_of_few[j];
     if (!(flatness(axes) < flatter[j] * flatness(before) && axes.variance[0] < plane_of_few * axes.variance[1]))
@@ -250,9 +252,6 @@ bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, Offset
 
 void splitSheets(Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch) {
   if (neighborhood.neighbors.empty()) return;
-  if (offsets.count() > few_neighbors.back() && liesOnOneLine(neighborhood.axes_of_few.back()) &&
-      isAlongOneLine(offsets.view()))
-    return;
   const PrincipalAxes before = neighborhood.axes;
   scratch.all.clear();
   cutAlongPlanes(before, neighborhood, offsets, scratch);

@@ -215,7 +215,7 @@ TEST_F(ConsoleOutput, EveryCommandTellsWhatMustBeKnownOfTheSurface) {
                                              {"map", mesh, "--from", dir_.write("sheet.off", sheet(81))},
                                              {"deform", mesh, "--handles", moved},
                                              {"weights", mesh, "--handles", few},
-                                             {"signed-distance", mesh, "--curve", few}})
+                                             {"signed-distance", mesh, "--curve", dir_.write("row.txt", "0\n1\n2\n")}})
     expectWarning(command, of_mesh);
   // What the folder of a Laplacian tells is told again.
   ASSERT_EQ(runTufted({"laplacian", mesh, "--format", "npz,ply,cover", "--out", in("folder")}).code, 0);

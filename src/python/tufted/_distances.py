@@ -9,11 +9,11 @@ from ._results import Isoline, LogMap, Path, Trace, TuftedWarning
 from ._tufted import InvalidInput
 
 
-def signed_distances(function, solver, curves, points=(), progress=None):
+def signed_distances(solver, curves, points=(), progress=None):
     """The distances that a _tufted.SignedDistanceSolver finds, with its warning."""
     values, sentence = solver.query(curves, list(points), progress)
     if sentence:
-        warnings.warn(f"{function}: {sentence}", TuftedWarning, stacklevel=4)
+        warnings.warn(sentence, TuftedWarning, stacklevel=4)
     return values
 
 
@@ -250,7 +250,7 @@ class Distances:
 
         curve: places in order, the first one again at the end if the curve is closed; or several such curves. A place
         is an index or, inside a triangle of a mesh, a pair (face, (a, b, c)) with barycentric coordinates. Neighbours
-        lie in one triangle or about a spacing apart; longer steps are warned of, and path() finds the way between.
+        are joined by an edge, or lie about a spacing apart; longer steps are warned of, and path() finds the way between.
         method: "heat": all curves count as pieces of one, whose left sides should agree. Across gaps and beyond ends
         the distance continues smoothly. "marching": the length of a shortest path to the nearest curve, negative if it
         leaves the curve to the right.
@@ -283,7 +283,7 @@ class Distances:
             points = self._places(name, sources, faces, barycentric) if faces is not None or sources.size else []
             solver = self._keep(name, lambda: _tufted.SignedDistanceSolver(
                 self._laplacian, *self._signed_frames(), *settings, self._solver(), progress), settings)
-            return signed_distances(name, solver, curves, points, progress)
+            return signed_distances(solver, curves, points, progress)
 
     def _curve(self, function, places):
         """The places of a curve, in order."""

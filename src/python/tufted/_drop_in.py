@@ -85,7 +85,7 @@ class _HeatSolver(OnSurface):
             raise InvalidInput(f"{name}: curves is empty, must have at least one")
         if solver is None:
             return nearest_of([self._surface.signed_distance(checked, time_step=VECTOR_STEP * self._t_coef)])
-        return nearest_of([signed_distances(name, solver, [self._surface._curve(name, curve) for curve in checked])])
+        return nearest_of([signed_distances(solver, [self._surface._curve(name, curve) for curve in checked])])
 
 
 def require_zero_set(level_set_constraint):
