@@ -57,8 +57,11 @@ Missing atRandom(double share, shapes::Random& random) {
 /// Discs of up to 20 pixels and the upper third, as sky and dark things.
 Missing inHoles(shapes::Random& random) {
   std::vector<Eigen::Vector3d> discs;
-  for (int i = 0; i < 12; ++i)
-    discs.emplace_back(width * random.uniform(), height * random.uniform(), 4 + 16 * random.uniform());
+  for (int i = 0; i < 12; ++i) {
+    Eigen::Vector3d& disc = discs.emplace_back();
+    for (double& value : disc) value = random.uniform();
+    disc = Eigen::Vector3d(width * disc[0], height * disc[1], 4 + 16 * disc[2]);
+  }
   return [discs](int column, int row) {
     for (const Eigen::Vector3d& disc : discs)
       if (std::hypot(column - disc[0], row - disc[1]) < disc[2]) return false;
@@ -93,7 +96,8 @@ TEST(PixelFill, IsTheShareNearPointsAndNotOfTheImage) {
     EXPECT_LT(fillOf(atRandom(missing, random)), 1 - missing);
     EXPECT_GT(fillOf(atRandom(missing, random)), 1 - missing - 4 * deviation);
   }
-  EXPECT_GT(fillOf(inHoles(random)), 0.95);
+  // The rims of holes count in the sparsest part; below 0.65 an image is none.
+  for (int i = 0; i < 20; ++i) EXPECT_GT(fillOf(inHoles(random)), 0.75);
   EXPECT_LT(fillOf(onRings(16)), 0.4);
   EXPECT_LT(fillOf(onRings(64)), 0.65);
   EXPECT_EQ(fillOf([](int, int) { return false; }), 0);
