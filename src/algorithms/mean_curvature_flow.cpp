@@ -15,6 +15,7 @@
 #include "algorithms/linear_system.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "base/power_of_two.h"
 #include "base/require.h"
 #include "tufted/errors.h"
 
@@ -32,17 +33,17 @@ constexpr double least_share = 1e-12;
 /// Shortest time step: areas over shorter ones overflow.
 constexpr double least_step = 1e-200;
 
-/// Below the exponents of all doubles.
-constexpr int least_exponent = -2000;
-
 class Flow {
  public:
   /// Scales each component about its middle to the area 1.
   Flow(const Laplacian& laplacian, const TrianglesRef& triangles)
       : L_(laplacian.L), components_(findComponents(laplacian)), x_(laplacian.positions) {
-    for (const int i : components_.points) exponent_ = std::max(exponent_, exponentOf(x_.row(i)));
+    double farthest = 0;
+    for (const int i : components_.points) farthest = std::max(farthest, x_.row(i).cwiseAbs().maxCoeff());
+    if (farthest > 0) exponent_ = std::ilogb(farthest) + 1;
+    const PowerOfTwo unit(-exponent_);
     for (const int i : components_.points)
-      for (double& value : x_.row(i)) value = std::ldexp(value, -exponent_);
+      for (double& value : x_.row(i)) value = unit.times(value);
     for (Index t = 0; t < triangles.rows(); ++t) {
       Eigen::RowVector3i corners = triangles.row(t);
       for (int& corner : corners) corner = laplacian.representative[corner];
@@ -51,11 +52,9 @@ class Flow {
     }
     masses_ = lumpedAreas();
     const VectorXd areas = components_.sums(masses_);
-    middle_.assign(components_.count, RowVector3d::Zero());
-    size_.assign(components_.count, 1);
     for (const int i : components_.points)
       if (areas[components_.of[i]] > 0) moving_.push_back(i);
-    center();
+    start_ = center();
   }
 
   void run(const MeanCurvatureFlowOptions& options) {
@@ -83,7 +82,7 @@ class Flow {
       const Eigen::MatrixXd found = system->solve(flow_name, right, nullptr, within);
       for (const int i : moving_) x_.row(i) = found.row(i);
       masses_ = lumpedAreas();
-      // Of a component whose area shrinks to less than that, less than half of the digits are left.
+      // A component whose area of 1 shrinks to the rounding of doubles has lost half of the digits of its coordinates.
       const VectorXd areas = components_.sums(masses_);
       for (const int i : moving_)
         if (!(areas[components_.of[i]] > std::numeric_limits<double>::epsilon()))
@@ -96,17 +95,19 @@ class Flow {
 
   /// Sets the rows of the points that move to where they are.
   void place(Points& points) const {
+    const PowerOfTwo unit(exponent_);
     for (const int i : moving_) {
       const int c = components_.of[i];
-      for (int k = 0; k < 3; ++k) points(i, k) = std::ldexp(x_(i, k) * size_[c] + middle_[c][k], exponent_);
+      for (int k = 0; k < 3; ++k) points(i, k) = unit.times(x_(i, k) * start_.size[c] + start_.middle[c][k]);
     }
   }
 
  private:
-  static int exponentOf(const RowVector3d& point) {
-    const double most = point.cwiseAbs().maxCoeff();
-    return most > 0 ? std::ilogb(most) + 1 : least_exponent;
-  }
+  /// The middles of all components and the roots of their areas.
+  struct Placement {
+    std::vector<RowVector3d> middle;
+    std::vector<double> size;
+  };
 
   /// A third of the area of each triangle at each of its corners.
   VectorXd lumpedAreas() const {
@@ -119,23 +120,23 @@ class Flow {
     return masses;
   }
 
-  /// Moves the middle of each component to 0 and scales its area to 1. The first time keeps both for place().
-  void center() {
+  /// Moves the middle of each component that moves to 0 and scales its area to 1. Returns where it was.
+  Placement center() {
     const VectorXd areas = components_.sums(masses_);
-    std::vector<RowVector3d> sums(components_.count, RowVector3d::Zero());
-    for (const int i : moving_) sums[components_.of[i]] += masses_[i] * x_.row(i);
-    for (const int i : moving_) {
-      const int c = components_.of[i];
-      x_.row(i) = (x_.row(i) - sums[c] / areas[c]) / std::sqrt(areas[c]);
-      masses_[i] /= areas[c];
-    }
-    if (is_centered_) return;
-    is_centered_ = true;
+    const auto count = static_cast<std::size_t>(components_.count);
+    Placement before = {std::vector<RowVector3d>(count, RowVector3d::Zero()), std::vector<double>(count)};
+    for (const int i : moving_) before.middle[components_.of[i]] += masses_[i] * x_.row(i);
     for (int c = 0; c < components_.count; ++c) {
       if (!(areas[c] > 0)) continue;
-      middle_[c] = sums[c] / areas[c];
-      size_[c] = std::sqrt(areas[c]);
+      before.middle[c] /= areas[c];
+      before.size[c] = std::sqrt(areas[c]);
     }
+    for (const int i : moving_) {
+      const int c = components_.of[i];
+      x_.row(i) = (x_.row(i) - before.middle[c]) / before.size[c];
+      masses_[i] /= areas[c];
+    }
+    return before;
   }
 
   /// M / t, where no mass is lost beside its diagonal in L.
@@ -168,11 +169,9 @@ class Flow {
   std::vector<Eigen::RowVector3i> triangles_;
   std::vector<int> moving_;  ///< points of components with an area
   Points x_;
-  int exponent_ = least_exponent;  ///< of the unit in which x is before center()
+  int exponent_ = 0;  ///< of the unit of `start_`, in which no coordinate exceeds 1
   VectorXd masses_;
-  bool is_centered_ = false;
-  std::vector<RowVector3d> middle_;  ///< of each component before it moves
-  std::vector<double> size_;         ///< the root of its area
+  Placement start_;  ///< before the first step
 };
 
 }  // namespace

@@ -15,7 +15,8 @@ struct DistinctFace {
   std::array<double, 3> opposite;  ///< length of the side opposite each corner
   int copies = 1;                  ///< number of faces of the cover that are equal to this one
 
-  /// As `==` of the corners, which calls memcmp(): a tenth of the time of a march's set-up.
+  /// Whether both have the same corners. Comparing the arrays calls memcmp(), which took a tenth of the set-up of a
+  /// march.
   bool hasCornersOf(const DistinctFace& other) const {
     return corners[0] == other.corners[0] && corners[1] == other.corners[1] && corners[2] == other.corners[2];
   }

@@ -82,8 +82,8 @@ Files in DIR, which replace older ones when all are complete:
   }
 
   Results compute(Operator& source) override {
-    Results results;
     if (way == Way::flow) return computeFlow(source);
+    Results results;
     const bool is_taubin = way == Way::taubin;
     using tufted::SmoothingMethod;
     tufted::SmoothingOptions options = {.method = is_taubin ? SmoothingMethod::taubin : SmoothingMethod::implicit,
