@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/compare/cover_lines.h"
+#include "bench/compare/cover_sheets.h"
 #include "bench/compare/tables.h"
 #include "cover/geometry.h"
 #include "shapes/shapes.h"
@@ -70,38 +71,10 @@ class Panel {
   std::vector<std::pair<double, std::string>> shapes_;
 };
 
-/// The mesh as its cover lies around it: fronts and backs moved apart along the normals.
-class Sheets {
- public:
-  /// @param apart distance from the triangle to its front and to its back
-  /// @param shrunk size of the drawn triangles relative to their own
-  Sheets(const Points& points, const IntrinsicTriangulation& cover, double apart, double shrunk)
-      : points_(points), cover_(cover), apart_(apart), shrunk_(shrunk) {}
-
-  Vector3d shift(int face) const {
-    const auto& [i, j, k] = cover_.faces[static_cast<std::size_t>(face)];
-    const Vector3d a = points_.row(i), b = points_.row(j), c = points_.row(k);
-    return apart_ * (b - a).cross(c - a).normalized();  // the corners of a back run the other way
-  }
-  Vector3d middle(int face) const {
-    const auto& [i, j, k] = cover_.faces[static_cast<std::size_t>(face)];
-    return Vector3d(points_.row(i) + points_.row(j) + points_.row(k)) / 3 + shift(face);
-  }
-  Vector3d corner(int side) const {
-    const Vector3d at = points_.row(tail(cover_, side)), around = middle(side / 3);
-    return around + shrunk_ * (at + shift(side / 3) - around);
-  }
-  void addFaces(const std::string& style, Panel& to) const {
-    for (int f = 0; f < cover_.size(); ++f)
-      to.add({corner(3 * f), corner(3 * f + 1), corner(3 * f + 2)},
-             style + " fill=\"" + (f % 2 == 0 ? "#fbe9d7" : "#e3ebf7") + "\"", middle(f));
-  }
-
- private:
-  const Points& points_;
-  const IntrinsicTriangulation& cover_;
-  double apart_, shrunk_;
-};
+void addFaces(const Sheets& sheets, const IntrinsicTriangulation& cover, const std::string& style, Panel& to) {
+  for (int f = 0; f < cover.size(); ++f)
+    to.add(sheets.corners(f), style + " fill=\"" + (f % 2 == 0 ? "#fbe9d7" : "#e3ebf7") + "\"", sheets.middle(f));
+}
 
 std::string line(const char* color, double width) {
   return "fill=\"none\" stroke-linecap=\"round\" stroke=\"" + std::string(color) + "\" stroke-width=\"" +
@@ -110,16 +83,15 @@ std::string line(const char* color, double width) {
 
 /// Draws the cover: bands of one colour join two sides that are glued.
 void drawCover(const Points& points, const IntrinsicTriangulation& cover, double size, Panel& to) {
-  const Sheets sheets(points, cover, 0.07 * size, 0.85);
-  sheets.addFaces("stroke=\"#767676\" stroke-width=\"0.7\" fill-opacity=\"0.9\"", to);
+  const Sheets sheets = Sheets::apart(points, cover, size);
+  addFaces(sheets, cover, "stroke=\"#767676\" stroke-width=\"0.7\" fill-opacity=\"0.9\"", to);
   std::map<std::pair<int, int>, std::size_t> pairs;
   for (int side = 0; side < 3 * cover.size(); ++side) {
     const int mate = cover.glue[static_cast<std::size_t>(side)];
     if (side > mate) continue;
     const std::pair<int, int> ends = std::minmax({tail(cover, side), head(cover, side)});
     const char* const color = pair_colors[pairs[ends]++ % pair_colors.size()];
-    const std::vector<Vector3d> band = {sheets.corner(side), sheets.corner(nextSide(side)), sheets.corner(mate),
-                                        sheets.corner(nextSide(mate))};
+    const std::vector<Vector3d> band = sheets.band(side);
     to.add(band, line(color, 0.8) + " fill-opacity=\"0.6\" style=\"fill:" + color + "\"",
            (band[0] + band[1] + band[2] + band[3]) / 4);
   }
@@ -128,8 +100,8 @@ void drawCover(const Points& points, const IntrinsicTriangulation& cover, double
 /// Draws the intrinsic edges on fronts and backs; those that the mesh does not have are wide.
 void drawEdges(const Points& points, const IntrinsicTriangulation& cover, const IntrinsicEdges& found, double size,
                Panel& to) {
-  const Sheets sheets(points, cover, 0.03 * size, 1);
-  sheets.addFaces("stroke=\"#c8c8c8\" stroke-width=\"0.7\" fill-opacity=\"0.85\"", to);
+  const Sheets sheets = Sheets::close(points, cover, size);
+  addFaces(sheets, cover, "stroke=\"#c8c8c8\" stroke-width=\"0.7\" fill-opacity=\"0.85\"", to);
   for (const IntrinsicEdge& edge : found.edges)
     for (const EdgePart& part : edge.parts)
       to.add({part.from + sheets.shift(part.face), part.to + sheets.shift(part.face)},
@@ -140,10 +112,8 @@ void drawEdges(const Points& points, const IntrinsicTriangulation& cover, const 
              sheets.middle(part.face));
 }
 
-void draw(const Points& points, const IntrinsicTriangulation& cover, const IntrinsicEdges& found,
+void draw(const Points& points, const IntrinsicTriangulation& cover, const IntrinsicEdges& found, double size,
           const std::filesystem::path& path) {
-  double size = 0;  // the mean length of an edge
-  for (const double length : cover.length) size += length / static_cast<double>(cover.length.size());
   Panel left(points, 0), right(points, panel);
   drawCover(points, cover, size, left);
   drawEdges(points, cover, found, size, right);
@@ -194,7 +164,10 @@ Table printCover(const Settings& settings) {
                "greatest distance of a traced end from its vertex, in lengths"});
   table.row({static_cast<int>(triangles.rows()), static_cast<int>(cover.size()), static_cast<int>(found.edges.size()),
              found.flips, static_cast<int>(flipped), Cell("%.1e", found.greatest_miss)});
-  if (!settings.picture.empty()) draw(points, cover, found, settings.picture);
+  double size = 0;  // the mean length of an edge
+  for (const double length : cover.length) size += length / static_cast<double>(cover.length.size());
+  if (!settings.picture.empty()) draw(points, cover, found, size, settings.picture);
+  if (!settings.page.empty()) writeCoverPage(points, cover, found, size, settings.page);
   return table;
 }
 

@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
     if (command.print == bench::printDataset) added->add_option("DIR", settings.meshes, "Folder, with its subfolders");
     if (command.print != bench::printCover) continue;
     added->add_option("FILE", settings.file, "Mesh of at most 2,000 triangles (a sheared book of three pages)");
+    added->add_option("--page", settings.page, "Write the cover as a page for any browser, which one can turn");
   }
   CLI11_PARSE(app, argc, argv);
   try {

@@ -26,6 +26,7 @@ struct Settings {
   std::vector<std::string> rivals;  ///< empty: all
   std::filesystem::path file;       ///< the mesh of `cover`; empty: a sheared book of three pages
   std::filesystem::path picture;    ///< where the table, or the cover, is drawn; empty: nowhere
+  std::filesystem::path page;       ///< where `cover` writes a page; empty: nowhere
   int k = 0;                        ///< instead of the one of each rival, if not 0
 
   int pointsOr(int otherwise) const { return points > 0 ? points : otherwise; }
