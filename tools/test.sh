@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and runs all tests. The last line counts them: N passed, N failed.
 #   --quick  the release build alone
-#   --all    also the GPL parts and the command under sanitizers, the parallel stages under ThreadSanitizer, the core alone as a package,
+#   --all    also the GPL parts and the command under sanitizers, the core under ThreadSanitizer, the core alone as a package,
 #            and clang-tidy
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
