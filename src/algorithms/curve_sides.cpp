@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
+
+#include "tufted/signed_distance.h"
 
 namespace tufted {
 namespace {
@@ -171,6 +174,13 @@ void signBySide(const SideGeometry& surface, const std::vector<CurveSegment>& se
   for (const CurveSegment& segment : segments) sides.add(segment);
   for (const CurvePlace& place : places) sides.add(place);
   sides.finish();
+}
+
+std::string longSegmentsWarning(const SignedDistanceReport& report) {
+  if (report.long_segments == 0) return {};
+  return std::to_string(report.long_segments) + " of the " + std::to_string(report.segments) +
+         " segments of the curves are longer than the edges at both ends together, and the points between their ends " +
+         "do not count as parts of the curves; take paths between the ends";
 }
 
 }  // namespace tufted

@@ -40,10 +40,6 @@ constexpr double equal_means = 1e-13;
 /// Heat: how many solves are made at once for the shifts of curves, which bounds their memory.
 constexpr Eigen::Index shifts_at_once = 16;
 
-std::size_t shareOf(std::size_t bytes, double share) {
-  return static_cast<std::size_t>(share * static_cast<double>(bytes));
-}
-
 /// Curves by what of them takes part.
 struct Curves {
   std::vector<CurvePlace> places;
@@ -104,8 +100,9 @@ SignedDistanceSolver::State::State(const Laplacian& laplacian, const Frames& giv
   }
   VectorHeatOptions vectors = {.time_step = options.time_step, .solver = options.solver};
   const std::size_t bytes = memoryLimit(options.solver.memory_limit);
-  heat.emplace(signed_distance_constructor, laplacian, &frames, vectors, shareOf(bytes, heat_share));
-  vectors.solver.memory_limit = shareOf(bytes, 1 - heat_share);
+  const auto of_heat = static_cast<std::size_t>(heat_share * static_cast<double>(bytes));
+  heat.emplace(signed_distance_constructor, laplacian, &frames, vectors, of_heat);
+  vectors.solver.memory_limit = bytes - of_heat;
   system.emplace(
       LinearSystem::laplacian({.function = signed_distance_constructor, .matrix = "L"}, laplacian, vectors.solver));
   report = heat->report();
@@ -336,13 +333,6 @@ SignedDistanceSolver::SignedDistanceSolver(const Laplacian& laplacian, const Fra
   auto state = std::make_unique<State>(laplacian, frames, options);
   state->report.seconds = watch.seconds();
   state_ = std::move(state);
-}
-
-std::string longSegmentsWarning(const SignedDistanceReport& report) {
-  if (report.long_segments == 0) return {};
-  return std::to_string(report.long_segments) + " of the " + std::to_string(report.segments) +
-         " segments of the curves are longer than the edges at both ends together, and the points between their ends " +
-         "do not count as parts of the curves; take paths between the ends";
 }
 
 double SignedDistanceSolver::timeStep() const {
