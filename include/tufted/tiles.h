@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -22,6 +23,14 @@ struct PointSource {
 /// Points in memory as a source. @param points borrowed for the life of the result
 PointSource sourceOf(const PointsRef& points);
 
+/// A face of the cover around one of its corners. Equal faces are one: front and back, and the copies that the corners
+/// of a triangle find.
+struct TileFace {
+  std::array<std::int64_t, 3> corners;  ///< points; after flips two of them may be the same
+  std::array<double, 3> opposite;       ///< length of the side opposite each corner
+  int copies = 1;                       ///< how many faces of the cover are this one
+};
+
 /// Rows of L, M and what is known of their points. Points are counted from 0 in the order of their source.
 struct TileRows {
   std::vector<std::int64_t> point;           ///< the point of each row
@@ -33,6 +42,8 @@ struct TileRows {
   std::vector<std::int64_t> begin;           ///< per row, its first entry in `column` and `value`; and the end
   std::vector<std::int64_t> column;          ///< the other point of each entry, ascending within a row
   std::vector<double> value;                 ///< entries of L
+  std::vector<std::int64_t> face_begin;      ///< with TileOptions::faces: as `begin`, in `faces`
+  std::vector<TileFace> faces;               ///< with TileOptions::faces: those around each row's point
 };
 
 /// The processes that build the tiles of one cloud, each its own ones. All of them call laplacianByTiles() with the
@@ -50,6 +61,7 @@ struct TileOptions {
   /// default, are refused.
   CloudOptions cloud = {};
   double memory = 4e9;  ///< bytes that may be taken beside what the source takes; tiles get smaller with it
+  bool faces = false;   ///< whether rows come with the faces around them, some 350 bytes per row
   int tiles = 0;        ///< number of tiles; 0: as few as fit in memory. At least one per process
   std::filesystem::path folder = ".";  ///< a folder with room for 32 bytes per point, in a file without a name
   Progress progress = {};              ///< called for every batch of points that is read, and during every build

@@ -185,7 +185,7 @@ class TileBuilds {
       for (const auto& pair : tile.farPairs())
         if (std::binary_search(tile.complete().begin(), tile.complete().end(), pair.first)) far_pairs_.push_back(pair);
       asked_points_ += pointsOf(task);
-      if (const TileRows rows = tile.rows(); !rows.point.empty()) {
+      if (const TileRows rows = tile.rows(options_.faces); !rows.point.empty()) {
         built_points_ += static_cast<double>(rows.point.size());
         built_.push_back({{tile.complete(), task.required}, tile.neededCells(), countsOf(rows)});
         take_(rows);
