@@ -14,6 +14,7 @@
 
 #include "../support/refusal.h"
 #include "tufted/components.h"
+#include "tufted/distance.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
 #include "tufted/laplacian.h"
@@ -82,9 +83,10 @@ Cloud spread(const Points& points) {
   return {points, points.middleRows(first, last - first)};
 }
 
-DistributedLaplacian build(const Points& own, int tiles = 0) {
+DistributedLaplacian build(const Points& own, int tiles = 0, bool faces = false) {
   TileOptions options;
   options.cloud = clean();
+  options.faces = faces;
   options.tiles = tiles;
   return distributedLaplacian(PETSC_COMM_WORLD, sourceOf(PETSC_COMM_WORLD, own), options);
 }
@@ -274,6 +276,49 @@ TEST(DistributedSolves, HarmonicIsThatOfTheWhole) {
   }
 }
 
+// Sources in the last process alone, a copy among them; a component without one; a surface with boundary and gaps, many
+// edges long.
+TEST(DistributedSolves, DistanceIsThatOfTheWhole) {
+  Points spheres(4000, 3);
+  spheres << sphere(2500, 101), sphere(1500, 102, {0, 9, 0});
+  spheres.row(77) = spheres.row(4);
+  spheres(9, 0) = nan;
+  DistanceOptions options;
+  options.method = DistanceMethod::heat;
+  options.solver.threads = 1;
+  for (const Points& points : {spheres, oddTerrain(6000)}) {
+    const Laplacian whole = pointCloudLaplacian(points, clean());
+    const std::vector<int> sources = {77, 1000};
+    const Eigen::VectorXd expected = DistanceSolver(whole, options).query(sources);
+    const double largest = (expected.array() < 1e300).select(expected, 0).maxCoeff();
+    const DistributedLaplacian laplacian = build(spread(points).own, 4, true);
+    const bool gives = processNumber() == processCount() - 1;
+    const std::vector<std::int64_t> given = gives ? std::vector<std::int64_t>{77, 1000} : std::vector<std::int64_t>();
+    DistributedSolve report;
+    const PetscVector made = distance(laplacian, rowsOf(laplacian, given), &report);
+    const std::vector<double> found =
+        everywhere(valuesByPoint(laplacian, made.get(), std::numeric_limits<double>::infinity()).get());
+    for (std::size_t p = 0; p < found.size(); ++p) {
+      if (std::isinf(expected[static_cast<Eigen::Index>(p)]))
+        EXPECT_TRUE(std::isinf(found[p])) << p;
+      else
+        EXPECT_NEAR(found[p], expected[static_cast<Eigen::Index>(p)], 1e-6 * largest) << p;
+    }
+    EXPECT_LE(report.residual, 1e-8);
+  }
+}
+
+TEST(DistributedSolves, DistanceIsTheSameInAnyUnit) {
+  const Points points = sphere(900, 101);
+  std::vector<Eigen::VectorXd> solved;
+  for (const double unit : {1.0, 1e-100, 1e100}) {
+    const Points scaled = unit * points;
+    const DistributedLaplacian laplacian = build(spread(scaled).own, 0, true);
+    solved.push_back(byPoint(laplacian, distance(laplacian, rowsOf(laplacian, {3}))) / unit);
+    EXPECT_LT((solved.back() - solved[0]).cwiseAbs().maxCoeff(), 1e-7);
+  }
+}
+
 TEST(DistributedSolves, SpectrumIsThatOfTheWhole) {
   Points points(1500, 3);
   points << sphere(1000, 101), .7 * sphere(500, 102, {0, 9, 0});
@@ -302,6 +347,11 @@ TEST(DistributedSolves, RefuseMistakesInEveryProcess) {
   EXPECT_EQ(refusal([&] { spectrum(laplacian, 4, 1); }), "spectrum: tolerance = 1, must be in (0, 1)");
   EXPECT_EQ(refusal([&] { harmonic(laplacian, {900}, {1}); }), "harmonic: row 900, must be in [0, 900)");
   EXPECT_EQ(refusal([&] { harmonic(laplacian, {}, {}); }), "harmonic: no row has a given value, must be at least one");
+  EXPECT_EQ(refusal([&] { distance(laplacian, {3}); }),
+            "distance: laplacian has no faces, must be built with TileOptions::faces");
+  const DistributedLaplacian with_faces = build(spread(sphere(900, 101)).own, 0, true);
+  EXPECT_EQ(refusal([&] { distance(with_faces, {900}); }), "distance: row 900, must be in [0, 900)");
+  EXPECT_EQ(refusal([&] { distance(with_faces, {}); }), "distance: no row is a source, must be at least one");
   for (const int odd : {3, 700}) {
     const auto f = [odd](std::int64_t p) { return p == odd ? nan : 1; };
     EXPECT_EQ(refusal([&] { poisson(laplacian, byRow(laplacian, f).get()); }), "poisson: f must be finite");

@@ -16,6 +16,7 @@
 #include "output.h"
 #include "progress_bar.h"
 #include "summary.h"
+#include "tile_warnings.h"
 #include "tufted/errors.h"
 #include "tufted/io/tiles.h"
 #include "warnings.h"
@@ -90,13 +91,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
   const tufted::TileReport report =
       forOption(given, [&] { return tufted::writeLaplacianByTiles(out, source, options, text); });
   bar.clear();
-  tufted::Report counts;
-  counts.points = report.points;
-  counts.active = report.active;
-  counts.not_finite = report.not_finite;
-  counts.coincident = report.coincident;
-  counts.isolated = report.isolated;
-  for (const std::string& line : tufted::warnings(counts)) notes.push_back(input.name() + ": " + line);
+  for (const std::string& line : tileWarnings(report)) notes.push_back(input.name() + ": " + line);
   for (const std::string& note : notes) warn(bar, note);
   Summary summary;
   summary.add("file", "%s (cloud)", input.name().c_str());

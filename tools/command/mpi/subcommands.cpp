@@ -1,16 +1,23 @@
 #include "subcommands.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "../numbers.h"
 #include "../options.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
 
-void MpiResults::add(const std::string& name, std::vector<tufted::PetscVector> columns) {
-  tufted::DistributedArray array = {name, {}};
+namespace {
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+}  // namespace
+
+void MpiResults::add(const std::string& name, std::vector<tufted::PetscVector> columns, double absent) {
+  tufted::DistributedArray array = {name, {}, absent};
   for (tufted::PetscVector& column : columns) {
     array.columns.push_back(column.get());
     kept.push_back(std::move(column));
@@ -20,10 +27,10 @@ void MpiResults::add(const std::string& name, std::vector<tufted::PetscVector> c
 
 namespace {
 
-void add(MpiResults& results, const std::string& name, tufted::PetscVector values) {
+void add(MpiResults& results, const std::string& name, tufted::PetscVector values, double absent = nan) {
   std::vector<tufted::PetscVector> one;
   one.push_back(std::move(values));
-  results.add(name, std::move(one));
+  results.add(name, std::move(one), absent);
 }
 
 /// One coordinate of each point, by row.
@@ -138,6 +145,42 @@ struct HarmonicByRanks : MpiSubcommand {
   std::vector<std::string> names;
 };
 
+struct DistanceByRanks : MpiSubcommand {
+  DistanceByRanks()
+      : MpiSubcommand("distance", "Compute geodesic distances by the heat method; writes distance.npy.",
+                      {"distance.npy"}) {}
+
+  void addOptions(CLI::App& command) override {
+    const auto check = [](const std::string& word) {
+      double number = 0;
+      return parseNumber(word, number) ? std::string() : word + " is no index";
+    };
+    addList(command, "--source", "Indices of the points from which distances are measured", check,
+            [this](const std::vector<std::string>& words) { given = words; })
+        ->type_name("I,J,...")
+        ->required();
+  }
+
+  bool needsFaces() const override { return true; }
+
+  void check(std::int64_t number) override {
+    for (const std::string& word : given)
+      points.push_back(pointOf(parseNumbers(word, "--source")[0], number, "--source " + word));
+  }
+
+  void compute(const tufted::DistributedLaplacian& laplacian, const tufted::PointSource&,
+               MpiResults& results) override {
+    std::vector<PetscInt> rows = rowsOf(laplacian, points);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (rows[i] < 0) results.warnings.push_back("--source " + given[i] + " takes no part, and is left out");
+    rows.erase(std::remove(rows.begin(), rows.end(), -1), rows.end());
+    add(results, "distance", distance(laplacian, rows, &results.solve.emplace()), infinity);
+  }
+
+  std::vector<std::string> given;
+  std::vector<std::int64_t> points;  ///< in process 0
+};
+
 struct SpectrumByRanks : MpiSubcommand {
   SpectrumByRanks()
       : MpiSubcommand("spectrum", "Find the smallest positive eigenvalues; writes evals.npy and evecs.npy.",
@@ -154,7 +197,7 @@ struct SpectrumByRanks : MpiSubcommand {
                MpiResults& results) override {
     tufted::DistributedSpectrum found = spectrum(laplacian, count, tolerance);
     results.solve = found.report;
-    results.add("evecs", std::move(found.vectors));
+    results.add("evecs", std::move(found.vectors), nan);
     results.files.lists = {{"evals", std::move(found.values)}};
   }
 
@@ -169,6 +212,7 @@ std::vector<std::unique_ptr<MpiSubcommand>> mpiSubcommands() {
   all.push_back(std::make_unique<LaplacianByRanks>());
   all.push_back(std::make_unique<PoissonByRanks>());
   all.push_back(std::make_unique<HarmonicByRanks>());
+  all.push_back(std::make_unique<DistanceByRanks>());
   all.push_back(std::make_unique<SpectrumByRanks>());
   return all;
 }

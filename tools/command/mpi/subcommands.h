@@ -16,9 +16,11 @@ struct MpiResults {
   tufted::DistributedResult files;
   std::vector<tufted::PetscVector> kept;  ///< the vectors of `files`
   std::optional<tufted::DistributedSolve> solve;
+  std::vector<std::string> warnings;  ///< in process 0
 
   /// Adds NAME.npy, an array with a column for each vector.
-  void add(const std::string& name, std::vector<tufted::PetscVector> columns);
+  /// @param absent value of points that take no part
+  void add(const std::string& name, std::vector<tufted::PetscVector> columns, double absent);
 };
 
 /// A subcommand of tufted-mpi: its options, what it reads, and what it computes. All functions but check() run in every
@@ -31,6 +33,8 @@ class MpiSubcommand {
   virtual ~MpiSubcommand() = default;
 
   virtual void addOptions(CLI::App&) {}
+  /// Whether the Laplacian must have its faces.
+  virtual bool needsFaces() const { return false; }
   /// Reads small files and refuses what can be seen before the build, in process 0 alone: one message is enough.
   /// @param points number of points of FILE
   virtual void check(std::int64_t points) { (void)points; }

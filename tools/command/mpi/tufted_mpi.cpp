@@ -19,6 +19,7 @@
 #include "../bytes.h"
 #include "../options.h"
 #include "../paths.h"
+#include "../tile_warnings.h"
 #include "subcommands.h"
 #include "tufted/errors.h"
 #include "tufted/io/tiles.h"
@@ -30,6 +31,7 @@ namespace {
 constexpr const char* footer =
     R"(Examples:
   mpirun -n 4 tufted-mpi spectrum survey.las --count 20 --out modes
+  mpirun -n 4 tufted-mpi distance survey.las --source 0,17 --out distances
   mpirun -n 4 tufted-mpi poisson survey.las --coordinate z --out solution -ksp_monitor
   srun tufted-mpi laplacian survey.las --memory 8G --out matrices
 
@@ -86,14 +88,18 @@ std::vector<std::string> takePetscOptions(std::vector<std::string>& words) {
   return options;
 }
 
+/// Prints a warning, in process 0.
+void warn(const std::string& text) {
+  if (processNumber() == 0) std::fprintf(stderr, "tufted-mpi: warning: %s\n", text.c_str());
+}
+
 /// Warns of options that PETSc did not ask for.
 void warnUnused() {
   PetscInt count = 0;
   char** names = nullptr;
   char** values = nullptr;
   PetscOptionsLeftGet(nullptr, &count, &names, &values);
-  for (PetscInt i = 0; i < count && processNumber() == 0; ++i)
-    std::fprintf(stderr, "tufted-mpi: warning: nothing has used the option -%s\n", names[i]);
+  for (PetscInt i = 0; i < count; ++i) warn("nothing has used the option -" + std::string(names[i]));
   PetscOptionsLeftRestore(nullptr, &count, &names, &values);
 }
 
@@ -151,8 +157,16 @@ class CommandLine {
       checkInputs(source.size);
     });
     if (processNumber() != 0) open();
+    settings_.tiles.faces = chosen_->needsFaces();
     settings_.tiles.folder = existingFolder(settings_.out);
     const auto laplacian = tufted::distributedLaplacian(PETSC_COMM_WORLD, source, settings_.tiles);
+    const auto seconds = [start] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    PetscPrintf(PETSC_COMM_WORLD, "points      %lld, %lld take part, %s\narea        %.10g, the sum of M\n",
+                static_cast<long long>(laplacian.report.points), static_cast<long long>(laplacian.report.active),
+                countText(laplacian.components, "component").c_str(), laplacian.report.area);
+    PetscPrintf(PETSC_COMM_WORLD, "built       in %.3g s\n", seconds());
     MpiResults results;
     chosen_->compute(laplacian, source, results);
     auto report = reportOf(settings_, laplacian.report);
@@ -161,15 +175,13 @@ class CommandLine {
       report.update({{"iterations", results.solve->iterations}, {"residual", results.solve->residual}});
     results.files.report = report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     tufted::writeDistributed(settings_.out, laplacian, results.files);
+    for (const std::string& line : tileWarnings(laplacian.report)) warn(settings_.file.string() + ": " + line);
+    for (const std::string& line : results.warnings) warn(line);
     warnUnused();
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    PetscPrintf(PETSC_COMM_WORLD, "points      %lld, %lld take part, %s\narea        %.10g, the sum of M\n",
-                static_cast<long long>(laplacian.report.points), static_cast<long long>(laplacian.report.active),
-                countText(laplacian.components, "component").c_str(), laplacian.report.area);
     if (results.solve)
       PetscPrintf(PETSC_COMM_WORLD, "solved      in %d iterations, residual %.2g\n", results.solve->iterations,
                   results.solve->residual);
-    PetscPrintf(PETSC_COMM_WORLD, "took        %.3g s\nwritten to  %s\n", seconds.count(), settings_.out.c_str());
+    PetscPrintf(PETSC_COMM_WORLD, "took        %.3g s\nwritten to  %s\n", seconds(), settings_.out.c_str());
   }
 
  private:
