@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -84,6 +85,9 @@ struct TileReport {
   std::int64_t most_points = 0;  ///< most points that a build held
   double margin = 0;             ///< points of all builds per point, less 1
 };
+
+/// Sentences about what a build by tiles has found that users should know, see warnings().
+std::vector<std::string> warnings(const TileReport& report);
 
 /// Builds L and M of a cloud by tiles: the rows that pointCloudLaplacian() gives, up to rounding, in memory for one
 /// tile. A tile holds the points around it as well. It knows how far each of its decisions has looked, and is built

@@ -13,6 +13,7 @@
 #include "tiles/sorted_points.h"
 #include "tiles/tile.h"
 #include "tufted/errors.h"
+#include "tufted/report.h"
 #include "tufted/tiles.h"
 
 namespace tufted {
@@ -268,6 +269,16 @@ PointSource sourceOf(const PointsRef& points) {
             for (Eigen::Index first = 0; first < points.rows(); first += most)
               take(points.middleRows(first, std::min(most, points.rows() - first)));
           }};
+}
+
+std::vector<std::string> warnings(const TileReport& report) {
+  Report counts;
+  counts.points = report.points;
+  counts.active = report.active;
+  counts.not_finite = report.not_finite;
+  counts.coincident = report.coincident;
+  counts.isolated = report.isolated;
+  return warnings(counts);
 }
 
 TileReport laplacianByTiles(const PointSource& source, const TileOptions& options,

@@ -364,6 +364,16 @@ TEST(DistributedSolves, RefuseMistakesInEveryProcess) {
             "laplacianByTiles: denoise = true, must be false: noise is not yet found by tiles");
 }
 
+TEST(DistributedLaplacian, OfMorePointsThanPetscCountsIsRefused) {
+  if (sizeof(PetscInt) > 4) GTEST_SKIP() << "indices have 64 bits";
+  const PointSource large = {std::int64_t{1} << 31, [](const auto&) { FAIL() << "nothing is to be read"; }};
+  TileOptions options;
+  options.cloud = clean();
+  EXPECT_EQ(refusal([&] { distributedLaplacian(PETSC_COMM_WORLD, large, options); }),
+            "distributedLaplacian: 2147483648 points, must be at most 2147483647: PETSc with 64-bit indices takes more "
+            "(libpetsc64-real-dev)");
+}
+
 }  // namespace
 }  // namespace tufted
 

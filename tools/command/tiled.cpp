@@ -16,7 +16,6 @@
 #include "output.h"
 #include "progress_bar.h"
 #include "summary.h"
-#include "tile_warnings.h"
 #include "tufted/errors.h"
 #include "tufted/io/tiles.h"
 #include "warnings.h"
@@ -91,7 +90,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
   const tufted::TileReport report =
       forOption(given, [&] { return tufted::writeLaplacianByTiles(out, source, options, text); });
   bar.clear();
-  for (const std::string& line : tileWarnings(report)) notes.push_back(input.name() + ": " + line);
+  for (const std::string& line : tufted::warnings(report)) notes.push_back(input.name() + ": " + line);
   for (const std::string& note : notes) warn(bar, note);
   Summary summary;
   summary.add("file", "%s (cloud)", input.name().c_str());

@@ -19,7 +19,6 @@
 #include "../bytes.h"
 #include "../options.h"
 #include "../paths.h"
-#include "../tile_warnings.h"
 #include "subcommands.h"
 #include "tufted/errors.h"
 #include "tufted/io/tiles.h"
@@ -175,7 +174,7 @@ class CommandLine {
       report.update({{"iterations", results.solve->iterations}, {"residual", results.solve->residual}});
     results.files.report = report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     tufted::writeDistributed(settings_.out, laplacian, results.files);
-    for (const std::string& line : tileWarnings(laplacian.report)) warn(settings_.file.string() + ": " + line);
+    for (const std::string& line : tufted::warnings(laplacian.report)) warn(settings_.file.string() + ": " + line);
     for (const std::string& line : results.warnings) warn(line);
     warnUnused();
     if (results.solve)
