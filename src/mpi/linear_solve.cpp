@@ -69,8 +69,10 @@ void solve(const char* function, Mat A, Mat preconditioned, Vec b, Vec u, Distri
   check(MatMult(A, u, rest.get()));
   check(VecAYPX(rest.get(), -1, b));
   const double norm = normOf(b);
+  PetscInt iterations = 0;
+  check(KSPGetIterationNumber(solver.get(), &iterations));
   DistributedSolve made;
-  check(KSPGetIterationNumber(solver.get(), &made.iterations));
+  made.iterations = static_cast<int>(iterations);
   made.residual = norm == 0 ? 0 : normOf(rest.get()) / norm;
   if (!(made.residual <= most_residual))
     throw SolverFailure(std::string(function) + ": the residual is " + numberText(made.residual) + " after " +

@@ -88,9 +88,10 @@ DistributedSpectrum spectrum(const DistributedLaplacian& laplacian, int k, doubl
   check(EPSSetFromOptions(solver.get()));
   check(EPSSolve(solver.get()));
 
-  PetscInt converged = 0;
+  PetscInt converged = 0, iterations = 0;
   check(EPSGetConverged(solver.get(), &converged));
-  check(EPSGetIterationNumber(solver.get(), &result.report.iterations));
+  check(EPSGetIterationNumber(solver.get(), &iterations));
+  result.report.iterations = static_cast<int>(iterations);
   if (converged < k)
     throw SolverFailure("spectrum: " + std::to_string(converged) + " of " + std::to_string(k) +
                         " positive eigenvalues were found in " + std::to_string(result.report.iterations) +
