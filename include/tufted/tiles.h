@@ -63,7 +63,7 @@ struct TileOptions {
   CloudOptions cloud = {};
   double memory = 4e9;  ///< bytes that may be taken beside what the source takes; tiles get smaller with it
   bool faces = false;   ///< whether rows come with the faces around them, some 350 bytes per row
-  int tiles = 0;        ///< number of tiles; 0: as few as fit in memory. At least one per process
+  int tiles = 0;        ///< number of tiles; 0: as few as fit in memory. Rounded up to a multiple of the processes
   std::filesystem::path folder = ".";  ///< a folder with room for 32 bytes per point, in a file without a name
   Progress progress = {};              ///< called for every batch of points that is read, and during every build
   TileProcesses processes = {};        ///< the process that calls, and the others; by default it is the only one

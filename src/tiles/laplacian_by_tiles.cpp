@@ -103,7 +103,8 @@ class TileBuilds {
     const double own = static_cast<double>(most_points_) * (all <= most_points_ ? 1 : own_share);
     const auto fitting = static_cast<std::int64_t>(std::ceil(static_cast<double>(all) / own));
     const std::int64_t tiles = options.tiles > 0 ? options.tiles : fitting;
-    ends_ = planTiles(points.cells(), std::max<std::int64_t>(options.processes.count, tiles));
+    const std::int64_t processes = options.processes.count;
+    ends_ = planTiles(points.cells(), std::max<std::int64_t>((tiles + processes - 1) / processes, 1) * processes);
   }
 
   TileReport buildAll() {
