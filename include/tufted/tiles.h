@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,6 +24,14 @@ struct PointSource {
 /// Points in memory as a source. @param points borrowed for the life of the result
 PointSource sourceOf(const PointsRef& points);
 
+/// A face of the cover around one of its corners. Equal faces are one: front and back, and the copies that the corners
+/// of a triangle find.
+struct TileFace {
+  std::array<std::int64_t, 3> corners;  ///< points; after flips two of them may be the same
+  std::array<double, 3> opposite;       ///< length of the side opposite each corner
+  int copies = 1;                       ///< how many faces of the cover are this one
+};
+
 /// Rows of L, M and what is known of their points. Points are counted from 0 in the order of their source.
 struct TileRows {
   std::vector<std::int64_t> point;           ///< the point of each row
@@ -33,6 +43,8 @@ struct TileRows {
   std::vector<std::int64_t> begin;           ///< per row, its first entry in `column` and `value`; and the end
   std::vector<std::int64_t> column;          ///< the other point of each entry, ascending within a row
   std::vector<double> value;                 ///< entries of L
+  std::vector<std::int64_t> face_begin;      ///< with TileOptions::faces: as `begin`, in `faces`
+  std::vector<TileFace> faces;               ///< with TileOptions::faces: those around each row's point
 };
 
 /// The processes that build the tiles of one cloud, each its own ones. All of them call laplacianByTiles() with the
@@ -50,7 +62,8 @@ struct TileOptions {
   /// default, are refused.
   CloudOptions cloud = {};
   double memory = 4e9;  ///< bytes that may be taken beside what the source takes; tiles get smaller with it
-  int tiles = 0;        ///< number of tiles; 0: as few as fit in memory. At least one per process
+  bool faces = false;   ///< whether rows come with the faces around them, some 350 bytes per row
+  int tiles = 0;        ///< number of tiles; 0: as few as fit in memory. Rounded up to a multiple of the processes
   std::filesystem::path folder = ".";  ///< a folder with room for 32 bytes per point, in a file without a name
   Progress progress = {};              ///< called for every batch of points that is read, and during every build
   TileProcesses processes = {};        ///< the process that calls, and the others; by default it is the only one
@@ -72,6 +85,9 @@ struct TileReport {
   std::int64_t most_points = 0;  ///< most points that a build held
   double margin = 0;             ///< points of all builds per point, less 1
 };
+
+/// Sentences about what a build by tiles has found that users should know, see warnings().
+std::vector<std::string> warnings(const TileReport& report);
 
 /// Builds L and M of a cloud by tiles: the rows that pointCloudLaplacian() gives, up to rounding, in memory for one
 /// tile. A tile holds the points around it as well. It knows how far each of its decisions has looked, and is built

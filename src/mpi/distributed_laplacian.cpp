@@ -1,10 +1,10 @@
 #include "tufted/mpi/distributed_laplacian.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "base/sort_unique.h"
 #include "mpi/components.h"
@@ -111,24 +111,55 @@ struct NumberedRows {
   std::vector<double> value;
 };
 
+/// The rows of points in the reach of this process.
+class RowNumbers {
+ public:
+  RowNumbers(Vec row, std::vector<std::int64_t> points) : points_(std::move(points)) {
+    sortUnique(points_);
+    rows_ = valuesAt(row, points_);
+  }
+  PetscInt of(std::int64_t point) const {
+    return static_cast<PetscInt>(rows_[std::lower_bound(points_.begin(), points_.end(), point) - points_.begin()]);
+  }
+
+ private:
+  std::vector<std::int64_t> points_;
+  std::vector<double> rows_;
+};
+
 NumberedRows numberColumns(const BuiltRows& built, const DistributedLaplacian& result) {
   std::vector<std::int64_t> points;
   built.forEach([&](const TileRows& rows, int row) {
     points.insert(points.end(), rows.column.begin() + rows.begin[row], rows.column.begin() + rows.begin[row + 1]);
   });
-  sortUnique(points);
-  const std::vector<double> numbers = valuesAt(result.row.get(), points);
+  const RowNumbers numbers(result.row.get(), std::move(points));
   NumberedRows numbered;
   built.forEach([&](const TileRows& rows, int row) {
     if (rows.status[row] != PointStatus::active) return;
     for (std::int64_t e = rows.begin[row]; e < rows.begin[row + 1]; ++e) {
-      const auto place = std::lower_bound(points.begin(), points.end(), rows.column[e]) - points.begin();
-      numbered.column.push_back(static_cast<PetscInt>(numbers[place]));
+      numbered.column.push_back(numbers.of(rows.column[e]));
       numbered.value.push_back(rows.value[e]);
     }
     numbered.begin.push_back(numbered.column.size());
   });
   return numbered;
+}
+
+/// Keeps the faces around the rows, with corners by row of L.
+void numberFaces(const BuiltRows& built, DistributedLaplacian& result) {
+  result.face_begin.push_back(0);
+  std::vector<std::int64_t> points;
+  built.forEach([&](const TileRows& rows, int row) {
+    if (rows.status[row] != PointStatus::active) return;
+    for (std::int64_t f = rows.face_begin[row]; f < rows.face_begin[row + 1]; ++f) {
+      result.faces.push_back(rows.faces[f]);
+      points.insert(points.end(), rows.faces[f].corners.begin(), rows.faces[f].corners.end());
+    }
+    result.face_begin.push_back(result.faces.size());
+  });
+  const RowNumbers numbers(result.row.get(), std::move(points));
+  for (TileFace& face : result.faces)
+    for (std::int64_t& corner : face.corners) corner = numbers.of(corner);
 }
 
 void assemble(MPI_Comm comm, const NumberedRows& rows, DistributedLaplacian& result) {
@@ -202,18 +233,17 @@ DistributedLaplacian distributedLaplacian(MPI_Comm comm, const PointSource& sour
   });
   setLocal(result.M.get(), areas);
   NumberedRows rows = numberColumns(built, result);
+  if (options.faces) numberFaces(built, result);
   built = {};
   findComponents(comm, rows.begin, rows.column, result);
   assemble(comm, rows, result);
   return result;
 }
 
-PetscVector valuesByPoint(const DistributedLaplacian& laplacian, Vec values) {
+PetscVector valuesByPoint(const DistributedLaplacian& laplacian, Vec values, double absent) {
   PetscVector result;
   check(VecDuplicate(laplacian.row.get(), result.make()));
-  std::vector<double> own = localOf(result.get());
-  std::fill(own.begin(), own.end(), std::nan(""));
-  setLocal(result.get(), own);
+  check(VecSet(result.get(), absent));
   setAt(result.get(), laplacian.point, localOf(values));
   copyToCoincident(laplacian, result.get());
   return result;

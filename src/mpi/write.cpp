@@ -50,7 +50,7 @@ std::vector<double> blockOf(const DistributedLaplacian& laplacian, const Distrib
   std::vector<double> block;
   const std::size_t columns = array.columns.size();
   for (std::size_t c = 0; c < columns; ++c) {
-    const std::vector<double> values = localOf(valuesByPoint(laplacian, array.columns[c]).get());
+    const std::vector<double> values = localOf(valuesByPoint(laplacian, array.columns[c], array.absent).get());
     block.resize(values.size() * columns);
     for (std::size_t i = 0; i < values.size(); ++i) block[i * columns + c] = values[i];
   }

@@ -5,21 +5,18 @@
 #include <cmath>
 
 #include "cover/geometry.h"
-#include "operators/distinct_faces.h"
 
 namespace tufted {
-namespace {
 
-/// Lays a face out in its plane. False if it has no area.
-bool layOut(const DistinctFace& key, double weight, int exponent, SurfaceFace& face) {
+bool layOut(const DistinctFace& given, double weight, int exponent, SurfaceFace& face) {
   std::array<double, 3> opposite;
-  for (int k = 0; k < 3; ++k) opposite[k] = std::ldexp(key.opposite[k], -exponent);
+  for (int k = 0; k < 3; ++k) opposite[k] = std::ldexp(given.opposite[k], -exponent);
   const int top = static_cast<int>(std::max_element(opposite.begin(), opposite.end()) - opposite.begin());
   const int first = (top + 1) % 3, second = (top + 2) % 3;
   const double base = opposite[top], from_first = opposite[second], from_second = opposite[first];
   const double area = triangleArea(base, from_first, from_second);
   if (!(area > 0) || !std::isfinite(area)) return false;
-  face.corners = {key.corners[first], key.corners[second], key.corners[top]};
+  face.corners = {given.corners[first], given.corners[second], given.corners[top]};
   face.base = base;
   face.foot = (base + (from_first - from_second) * ((from_first + from_second) / base)) / 2;
   face.height = 2 * area / base;
@@ -31,8 +28,6 @@ double squaredSides(const SurfaceFace& face) {
   const double rest = face.base - face.foot;
   return face.base * face.base + face.foot * face.foot + rest * rest + 2 * face.height * face.height;
 }
-
-}  // namespace
 
 SurfaceFaces surfaceFaces(const CoverSource& cover, int vertices, double scale, const Workers& workers) {
   SurfaceFaces surface;

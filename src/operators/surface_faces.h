@@ -8,6 +8,7 @@
 
 #include "base/cover_source.h"
 #include "base/parallel.h"
+#include "operators/distinct_faces.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -35,6 +36,12 @@ SurfaceFaces surfaceFaces(const CoverSource& cover, int vertices, double scale, 
 /// @param part number of each point's part, in [0, parts); -1: none
 /// @param by_area whether each face is weighted by its area
 VectorXd meanSquaredSides(const SurfaceFaces& surface, const std::vector<int>& part, int parts, bool by_area);
+
+/// Lays a face out in its plane, with lengths in units of 2^exponent. False if it has no area.
+bool layOut(const DistinctFace& given, double weight, int exponent, SurfaceFace& face);
+
+/// The sum of its squared sides.
+double squaredSides(const SurfaceFace& face);
 
 /// Areas of `size` points, a third of each face per corner, in units of 2^(2 exponent).
 VectorXd lumpedAreas(const SurfaceFaces& surface, int size);

@@ -20,5 +20,6 @@ PYBIND11_MODULE(_tufted, module) {  // NOLINT
   addMoving(module);
   addOperators(module);
   addFiles(module);
+  addTiles(module);
   addView(module);
 }

@@ -18,6 +18,7 @@ void addShapeMaps(pybind11::module_& module);
 void addMoving(pybind11::module_& module);
 void addOperators(pybind11::module_& module);
 void addFiles(pybind11::module_& module);
+void addTiles(pybind11::module_& module);
 void addView(pybind11::module_& module);
 
 }  // namespace tufted::python

@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "base/cover_source.h"
+#include "base/parallel.h"
 #include "base/power_of_two.h"
 #include "base/sort_unique.h"
 #include "cover/geometry.h"
+#include "operators/distinct_faces.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -221,7 +223,7 @@ TileTask Tile::rest() const {
   return task;
 }
 
-TileRows Tile::rows() const {
+TileRows Tile::rows(bool has_faces) const {
   TileRows rows;
   std::vector<Eigen::Index> own;
   for (std::size_t i = 0; i < cell_of_.size(); ++i)
@@ -246,7 +248,28 @@ TileRows Tile::rows() const {
     }
     rows.begin.push_back(std::ssize(rows.column));
   }
+  if (has_faces) addFaces(own, rows);
   return rows;
+}
+
+/// @param own the points of the rows, ascending
+void Tile::addFaces(const std::vector<Eigen::Index>& own, TileRows& rows) const {
+  const int size = static_cast<int>(number_.size());
+  const std::vector<DistinctFace> faces = distinctFaces(*result_.cover_source, size, Workers(1, {}));
+  std::vector<std::pair<int, int>> around;  // a point and a face around it
+  for (int f = 0; f < std::ssize(faces); ++f)
+    for (const int corner : faces[f].corners) around.emplace_back(corner, f);
+  sortUnique(around);
+  rows.face_begin.push_back(0);
+  for (const Eigen::Index i : own) {
+    auto place = std::lower_bound(around.begin(), around.end(), std::pair(static_cast<int>(i), 0));
+    for (; place != around.end() && place->first == i; ++place) {
+      const DistinctFace& face = faces[place->second];
+      const auto& [a, b, c] = face.corners;
+      rows.faces.push_back({{number_[a], number_[b], number_[c]}, face.opposite, face.copies});
+    }
+    rows.face_begin.push_back(std::ssize(rows.faces));
+  }
 }
 
 }  // namespace tufted

@@ -37,8 +37,8 @@ class Tile final : public CloudPart {
 
   /// Builds the tile.
   void build(const CloudOptions& options);
-  /// The rows of its complete cells.
-  TileRows rows() const;
+  /// The rows of its complete cells. @param has_faces whether they come with their faces
+  TileRows rows(bool has_faces) const;
 
   /// Own cells whose rows are those of the whole cloud, ascending.
   const std::vector<int>& complete() const { return complete_; }
@@ -53,6 +53,7 @@ class Tile final : public CloudPart {
   void takeStars(const SurfaceStars& built, const RankedCloud& cloud) override;
 
  private:
+  void addFaces(const std::vector<Eigen::Index>& own, TileRows& rows) const;
   void hold(int cell);
   /// Holds cells, and those up to `width` cells from them.
   void holdAround(std::vector<int> cells, int width);

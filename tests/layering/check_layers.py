@@ -24,12 +24,12 @@ ROOMS = {
     "depth_image": ["base", "simd", "neighbors", "stars"],
     "denoise": ["base", "simd", "neighbors", "stars", "depth_image"],
     "pipeline": ["base", "cover", "neighbors", "stars", "depth_image", "denoise", "direct"],
-    "tiles": ["base", "cover", "neighbors", "stars", "direct", "pipeline"],
     "operators": ["base", "cover", "stars"],
+    "tiles": ["base", "cover", "neighbors", "stars", "direct", "pipeline", "operators"],
     "algorithms": ["base", "simd", "cover", "neighbors", "stars", "operators"],
     "view": [],
     "pcl": [],
-    "mpi": ["base", "io"],
+    "mpi": ["base", "cover", "io", "operators"],
     "python": [],
 }
 FIXTURES = ["shapes", "oracles", "guarantees"]  # folders of tests/ that tools for developers may use

@@ -46,6 +46,10 @@ TEST_F(TuftedMpi, SolvesAndEigenvaluesAreThoseOfTheCommand) {
   run({"poisson", cloud_, "--preset", "clean", "--values", in("one/poisson/u.npy"), "--out", in("one/again")});
   expectNear("two/again/u.npy", "one/again/u.npy", 1e-6);
 
+  run({"distance", cloud_, "--preset", "clean", "--method", "heat", "--source", "3,700", "--out", in("one/distance")});
+  expectDone({"distance", cloud_, "--source", "3,700", "--out", in("two/distance")});
+  expectNear("two/distance/distance.npy", "one/distance/distance.npy", 1e-6);
+
   const std::string pins = dir_.write("pins.txt", "3 1  # a comment\n\n700 -2\n");
   run({"interpolate", cloud_, "--preset", "clean", "--pins", pins, "--out", in("one/harmonic")});
   expectDone({"harmonic", cloud_, "--pins", pins, "--out", in("two/harmonic")});
@@ -91,15 +95,16 @@ TEST_F(TuftedMpi, MistakesAreRefusedWithOneMessageAndNoResult) {
   };
   expectRefused({"spectrum", in("missing.xyz")}, 1, in("missing.xyz") + ": no such file");
   expectRefused({"spectrum", cloud_, "--cont", "3"}, 2, "The following argument");
+  expectRefused({"distance", cloud_, "--source", "3,1200"}, 2, "--source 1200 is no index in [0, 1200)");
   expectRefused({"poisson", cloud_}, 2, "");
   expectRefused({"spectrum", cloud_, "--count", "0"}, 2, "--count: ");
   expectRefused({"spectrum", cloud_, "--count", "1000"}, 2, "spectrum: k = 1000, must be in [1, 400]");
   expectRefused({"spectrum", cloud_, "--memory", "1M"}, 2, "laplacianByTiles: memory = ");
   expectRefused({"spectrum", cloud_, "--memory", "much"}, 2, "--memory: much is not a size");
-  expectRefused({"harmonic", cloud_, "--pins", dir_.write("pins.txt", "3 1\n4 x\n")}, 1,
+  expectRefused({"harmonic", cloud_, "--pins", dir_.write("pins.txt", "3 1\n4\n")}, 1,
                 in("pins.txt") + ": line 2: is not INDEX VALUE");
   expectRefused({"harmonic", cloud_, "--pins", dir_.write("pins.txt", "1200 1\n")}, 2,
-                "--pins: point 1200, must be in [0, 1200)");
+                in("pins.txt") + ": line 1 is no index in [0, 1200)");
   expectRefused({"poisson", cloud_, "--values", dir_.write("short.npy", readAll(cloud_))}, 1, in("short.npy"));
 }
 
@@ -108,6 +113,15 @@ TEST_F(TuftedMpi, OptionsOfPetscArePassedOnAndUnusedOnesNamed) {
       expectDone({"poisson", cloud_, "--coordinate", "z", "--out", in("out"), "-ksp_monitor", "-ksp_typ", "cg"});
   EXPECT_NE(result.out.find("0 KSP Residual norm"), std::string::npos) << result.out;
   EXPECT_EQ(result.err, "tufted-mpi: warning: nothing has used the option -ksp_typ\n");
+}
+
+TEST_F(TuftedMpi, WarnsOfSourcesThatTakeNoPart) {
+  const std::string cloud = dir_.write("nan.xyz", "nan 0 0\n" + sphere(900));
+  const Result result = expectDone({"distance", cloud, "--source", "0,5", "--out", in("out")});
+  EXPECT_EQ(result.err, "tufted-mpi: warning: --source 0 takes no part, and is left out\n");
+  const Eigen::MatrixXd distance = tufted::readArray(dir_ / "out/distance.npy");
+  EXPECT_TRUE(std::isinf(distance(0, 0)));
+  EXPECT_EQ(distance(5, 0), 0);
 }
 
 TEST_F(TuftedMpi, NeverOverwritesItsInput) {

@@ -2,14 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.h"
 #include "base/scaling.h"
+#include "operators/distinct_faces.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
 #include "tiles/passes_scaling.h"
@@ -244,6 +248,46 @@ TEST(Tiles, ReportAShareThatNeverFalls) {
 // Cells are as large as suits dense parts, so that triangles of others reach past many cells.
 TEST(Tiles, OfUnevenDensityAreThoseOfTheWhole) {
   expectSameByTiles(shapes::square(20000, shapes::Sampling::densityStep(400)).points);
+}
+
+/// Faces around a point by their corners: how many there are, and the sums of their sides. Copies whose sides differ in
+/// their last bits are one.
+using FacesAround = std::map<std::array<int, 3>, Eigen::Vector4d>;
+
+void addFace(const DistinctFace& face, FacesAround& around) {
+  const auto& [a, b, c] = face.opposite;
+  around.try_emplace(face.corners, Eigen::Vector4d::Zero()).first->second += face.copies * Eigen::Vector4d(1, a, b, c);
+}
+
+TEST(Tiles, FacesAreThoseOfTheWholeCover) {
+  const Points points = noisySphere(3000, 0.1);
+  const Laplacian whole = pointCloudLaplacian(points, one(Preset::clean));
+  std::vector<FacesAround> expected(3000), found(3000);
+  for (const DistinctFace& face : distinctFaces(*whole.cover_source, 3000, Workers(1, {})))
+    for (const int corner : std::set<int>(face.corners.begin(), face.corners.end())) addFace(face, expected[corner]);
+  laplacianByTiles(
+      sourceOf(points),
+      {.cloud = one(Preset::clean), .faces = true, .tiles = 3, .folder = std::filesystem::temp_directory_path()},
+      [&](const TileRows& rows) {
+        for (std::size_t r = 0; r < rows.point.size(); ++r) {
+          found[rows.point[r]].clear();
+          for (auto f = rows.face_begin[r]; f < rows.face_begin[r + 1]; ++f) {
+            const auto& [a, b, c] = rows.faces[f].corners;
+            DistinctFace face =
+                distinctFace({static_cast<int>(a), static_cast<int>(b), static_cast<int>(c)}, rows.faces[f].opposite);
+            face.copies = rows.faces[f].copies;
+            addFace(face, found[rows.point[r]]);
+          }
+        }
+      });
+  for (int i = 0; i < 3000; ++i) {
+    ASSERT_EQ(found[i].size(), expected[i].size()) << i;
+    for (const auto& [corners, sums] : expected[i]) {
+      ASSERT_EQ(found[i].count(corners), 1u) << i;
+      ASSERT_EQ(found[i][corners][0], sums[0]) << i;
+      ASSERT_LT((found[i][corners] - sums).norm(), 1e-12) << i;
+    }
+  }
 }
 
 TEST(Tiles, OfFewPointsAreThoseOfTheWhole) {

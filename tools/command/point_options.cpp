@@ -2,10 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <sstream>
 #include <string>
 
@@ -49,39 +47,12 @@ void addNearest(const Place& place, int point, std::size_t number, const Operato
 
 }  // namespace
 
-std::vector<double> parseNumbers(const std::string& text, const std::string& option) {
-  std::vector<double> numbers;
-  std::istringstream words(text + ',');
-  bool valid = true;
-  for (std::string word; std::getline(words, word, ',');) valid &= parseNumber(word, numbers.emplace_back());
-  if (!valid) throw tufted::InvalidInput(option + " " + text + " is no list of numbers with commas between them");
-  return numbers;
-}
-
 Eigen::Vector3d parsePosition(const std::string& text, const std::string& option) {
   const std::vector<double> numbers = parseNumbers(text, option);
   if (numbers.size() != 3) throw tufted::InvalidInput(option + " " + text + " is not X,Y,Z");
   Eigen::Vector3d position(numbers[0], numbers[1], numbers[2]);
   if (!position.allFinite()) throw tufted::InvalidInput(option + " " + text + " is not finite, must be");
   return position;
-}
-
-std::vector<Row> readRows(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) throw tufted::IoError(path.string() + ": cannot be read");
-  std::vector<Row> rows;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    line.resize(std::min(line.find('#'), line.size()));
-    std::replace(line.begin(), line.end(), ',', ' ');
-    Row row{path.string() + ": line " + std::to_string(number), {}};
-    std::istringstream words(line);
-    for (std::string word; words >> word;)
-      if (!parseNumber(word, row.numbers.emplace_back()))
-        throw tufted::IoError(row.name + ": '" + word + "' is not a number");
-    if (!row.numbers.empty()) rows.push_back(std::move(row));
-  }
-  return rows;
 }
 
 Place placeOf(const std::vector<double>& numbers, const Operator& source, const std::string& name) {

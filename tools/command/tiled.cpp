@@ -90,13 +90,7 @@ int runTiled(const Tiled& tiled, Input& input, Build& build, const std::filesyst
   const tufted::TileReport report =
       forOption(given, [&] { return tufted::writeLaplacianByTiles(out, source, options, text); });
   bar.clear();
-  tufted::Report counts;
-  counts.points = report.points;
-  counts.active = report.active;
-  counts.not_finite = report.not_finite;
-  counts.coincident = report.coincident;
-  counts.isolated = report.isolated;
-  for (const std::string& line : tufted::warnings(counts)) notes.push_back(input.name() + ": " + line);
+  for (const std::string& line : tufted::warnings(report)) notes.push_back(input.name() + ": " + line);
   for (const std::string& note : notes) warn(bar, note);
   Summary summary;
   summary.add("file", "%s (cloud)", input.name().c_str());

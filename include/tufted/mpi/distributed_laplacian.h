@@ -2,7 +2,9 @@
 
 #include <petscmat.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -55,6 +57,9 @@ struct DistributedLaplacian {
   /// The connected component of each row of this process, from 0 to components - 1; larger areas come first.
   std::vector<PetscInt> component;
   PetscInt components = 0;  ///< number of connected components
+  /// With TileOptions::faces: of each row of this process its first face in `faces`; and the end. Otherwise empty.
+  std::vector<std::size_t> face_begin;
+  std::vector<TileFace> faces;  ///< with TileOptions::faces: those around each row; their corners are rows of L
   /// Pairs (point, representative) of the coincident points that this process has found.
   std::vector<std::pair<std::int64_t, std::int64_t>> coincident;
   TileReport report;  ///< of all processes together; `most_points` is the greatest
@@ -76,8 +81,9 @@ PointSource sourceOf(MPI_Comm comm, const PointsRef& points);
 DistributedLaplacian distributedLaplacian(MPI_Comm comm, const PointSource& source, const TileOptions& options);
 
 /// The values of a vector with one value per row, by point of the source: coincident points have that of their
-/// representative, others that are not active NaN. N values, spread by blocks of points. Collective.
-PetscVector valuesByPoint(const DistributedLaplacian& laplacian, Vec values);
+/// representative, others that are not active `absent`. N values, spread by blocks of points. Collective.
+PetscVector valuesByPoint(const DistributedLaplacian& laplacian, Vec values,
+                          double absent = std::numeric_limits<double>::quiet_NaN());
 
 /// The values of the rows, from a vector with one value per point of the source. Collective.
 PetscVector valuesByRow(const DistributedLaplacian& laplacian, Vec by_point);

@@ -35,6 +35,17 @@ PetscVector poisson(const DistributedLaplacian& laplacian, Vec f, DistributedSol
 PetscVector harmonic(const DistributedLaplacian& laplacian, const std::vector<PetscInt>& rows,
                      const std::vector<double>& values, DistributedSolve* report = nullptr);
 
+/// The geodesic distance from the nearest of some rows by the heat method, see DistanceSolver: infinite on components
+/// without a source. Heat is solved for in windows by conjugate gradients, some 10 edges in a round, and L d = div X by
+/// conjugate gradients with hypre's algebraic multigrid. Collective.
+/// @param laplacian built with TileOptions::faces
+/// @param sources rows of L, from any process
+/// @return one value >= 0 per row, in the points' unit
+/// @throws InvalidInput for a Laplacian without faces, if no process gives a source, and for rows out of range
+/// @throws SolverFailure if the residual ends above 1e-8
+PetscVector distance(const DistributedLaplacian& laplacian, const std::vector<PetscInt>& sources,
+                     DistributedSolve* report = nullptr);
+
 /// Eigenpairs of L x = lambda M x.
 struct DistributedSpectrum {
   std::vector<double> values;        ///< ascending, in 1 / length^2

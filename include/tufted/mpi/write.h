@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,9 @@ namespace tufted {
 
 /// An array of a result.
 struct DistributedArray {
-  std::string name;          ///< of the file, without .npy
-  std::vector<Vec> columns;  ///< one value per row of L each
+  std::string name;                                          ///< of the file, without .npy
+  std::vector<Vec> columns;                                  ///< one value per row of L each
+  double absent = std::numeric_limits<double>::quiet_NaN();  ///< value of points that are not active
 };
 
 /// What a result on several processes has.

@@ -18,6 +18,7 @@ from ._maps import functional_map, point_maps, zoom_out
 from ._results import (Curvature, Deformation, Denoised, Gradients, Isoline, LogMap, MinimalSurface, Page,
                        Parameterization, Path, Picture, PointMaps, Segments, Signature, Spectrum, Trace)
 from ._surface import Surface, TuftedWarning
+from ._tiles import laplacian_by_tiles
 from ._tufted import Cancelled, FileTooLarge, InvalidInput, IoError, SolverFailure
 from ._tufted import version as __version__
 
@@ -28,7 +29,7 @@ __all__ = [
     "MinimalSurface", "Page", "Parameterization", "Path", "Picture", "PointCloud", "PointCloudHeatSolver",
     "PointCloudLocalTriangulation", "PointMaps", "PolygonMeshHeatSolver", "Segments", "Signature", "SolverFailure",
     "Spectrum", "Surface", "Trace", "TuftedWarning", "compute_distance", "compute_distance_multisource",
-    "cotan_laplacian", "denoise", "edges", "face_areas", "functional_map", "load", "marching_triangles",
-    "mesh_laplacian", "point_cloud_laplacian", "point_maps", "read", "read_mesh", "read_point_cloud",
-    "read_polygon_mesh", "thin", "vertex_areas", "write_mesh", "write_point_cloud", "zoom_out",
+    "cotan_laplacian", "denoise", "edges", "face_areas", "functional_map", "laplacian_by_tiles", "load",
+    "marching_triangles", "mesh_laplacian", "point_cloud_laplacian", "point_maps", "read", "read_mesh",
+    "read_point_cloud", "read_polygon_mesh", "thin", "vertex_areas", "write_mesh", "write_point_cloud", "zoom_out",
 ]

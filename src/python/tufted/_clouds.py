@@ -208,7 +208,7 @@ def thin(points, spacing):
     return _tufted.thin(check.rows_of_three("thin", "points", points), check.number("thin", "spacing", spacing))
 
 
-def _selection(where, crop, polygon, spacing):
+def selection_of(where, crop, polygon, spacing):
     box = [] if crop is None else check.columns("read", "crop", crop, 6)[0].ravel()
     corners = np.zeros((0, 2))
     if polygon is not None:
@@ -257,7 +257,7 @@ def read(path, *, kind="automatic", weld=False, where=(), crop=None, polygon=Non
         raise InvalidInput("read: image and rings are both given, must be one at most")
     geometry = _tufted.read_file(path, check.text("read", "kind", kind), check.flag("read", "weld", weld),
                                  check.callback("read", progress),
-                                 _selection(where, crop, polygon, thin))
+                                 selection_of(where, crop, polygon, thin))
     if geometry.is_mesh:
         for name, value in (("image", image), ("rings", has_rings), ("normals", normals)):
             if value:

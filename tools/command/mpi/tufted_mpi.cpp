@@ -7,12 +7,11 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
+#include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,12 +19,10 @@
 #include "../bytes.h"
 #include "../options.h"
 #include "../paths.h"
+#include "subcommands.h"
 #include "tufted/errors.h"
-#include "tufted/io/results.h"
 #include "tufted/io/tiles.h"
 #include "tufted/io/write.h"
-#include "tufted/mpi/solves.h"
-#include "tufted/mpi/write.h"
 #include "tufted/version.h"
 
 namespace {
@@ -33,6 +30,7 @@ namespace {
 constexpr const char* footer =
     R"(Examples:
   mpirun -n 4 tufted-mpi spectrum survey.las --count 20 --out modes
+  mpirun -n 4 tufted-mpi distance survey.las --source 0,17 --out distances
   mpirun -n 4 tufted-mpi poisson survey.las --coordinate z --out solution -ksp_monitor
   srun tufted-mpi laplacian survey.las --memory 8G --out matrices
 
@@ -49,15 +47,7 @@ struct Settings {
   std::filesystem::path file, out;
   tufted::ReadAs as = tufted::ReadAs::automatic;
   tufted::TileOptions tiles;
-  // Each of these belongs to one subcommand.
-  std::string coordinate;
-  std::filesystem::path values, pins;
-  int count = 10;
-  double tolerance = 1e-9;
 };
-
-/// What a subcommand computes.
-using Compute = std::function<void(const tufted::DistributedLaplacian& laplacian, const tufted::PointSource& source)>;
 
 int processNumber() {
   int number = 0;
@@ -76,78 +66,6 @@ std::filesystem::path existingFolder(const std::filesystem::path& folder) {
   std::filesystem::path existing = std::filesystem::absolute(folder);
   while (!std::filesystem::is_directory(existing) && existing.has_relative_path()) existing = existing.parent_path();
   return existing;
-}
-
-/// One coordinate of each point, by row.
-tufted::PetscVector coordinateOf(const tufted::DistributedLaplacian& laplacian, const tufted::PointSource& source,
-                                 int axis) {
-  tufted::PetscVector by_point;
-  VecDuplicate(laplacian.row.get(), by_point.make());
-  PetscInt first = 0, last = 0;
-  VecGetOwnershipRange(by_point.get(), &first, &last);
-  PetscScalar* values = nullptr;
-  VecGetArray(by_point.get(), &values);
-  std::int64_t done = 0;
-  source.pass([&](const tufted::PointsRef& batch) {
-    for (Eigen::Index i = 0; i < batch.rows(); ++i, ++done)
-      if (done >= first && done < last) values[done - first] = batch(i, axis);
-  });
-  VecRestoreArray(by_point.get(), &values);
-  return valuesByRow(laplacian, by_point.get());
-}
-
-/// Values of the points, by row. @param given N x 1 in process 0; not used in the others
-tufted::PetscVector valuesByRowOf(const tufted::DistributedLaplacian& laplacian, const Eigen::MatrixXd& given) {
-  tufted::PetscVector by_point;
-  VecDuplicate(laplacian.row.get(), by_point.make());
-  for (Eigen::Index i = 0; i < given.rows(); ++i)
-    VecSetValue(by_point.get(), static_cast<PetscInt>(i), given(i, 0), INSERT_VALUES);
-  VecAssemblyBegin(by_point.get());
-  VecAssemblyEnd(by_point.get());
-  return valuesByRow(laplacian, by_point.get());
-}
-
-/// Pins of a text file: the rows of the points, and their values. In process 0; none in the others.
-struct Pins {
-  std::vector<PetscInt> rows;
-  std::vector<double> values;
-};
-
-/// Reads lines INDEX VALUE.
-std::vector<std::pair<std::int64_t, double>> readPins(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw tufted::IoError(file.string() + ": cannot read");
-  std::vector<std::pair<std::int64_t, double>> pins;
-  int line = 0;
-  for (std::string text; std::getline(stream, text);) {
-    ++line;
-    text.erase(std::min(text.find('#'), text.size()));
-    std::istringstream words(text);
-    std::pair<std::int64_t, double> pin;
-    std::string rest;
-    if (!(words >> rest)) continue;
-    words.clear();
-    words.seekg(0);
-    if (!(words >> pin.first >> pin.second) || words >> rest)
-      throw tufted::IoError(file.string() + ": line " + std::to_string(line) + ": is not INDEX VALUE");
-    pins.push_back(pin);
-  }
-  return pins;
-}
-
-/// @param given in process 0; none in the others
-Pins pinsOf(const tufted::DistributedLaplacian& laplacian, const std::vector<std::pair<std::int64_t, double>>& given) {
-  std::vector<std::int64_t> points;
-  for (const auto& [point, value] : given) points.push_back(point);
-  const std::vector<PetscInt> rows = rowsOf(laplacian, points);
-  Pins pins;
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    if (rows[i] < 0)
-      throw tufted::InvalidInput("--pins: point " + std::to_string(points[i]) + " takes no part, must be active");
-    pins.rows.push_back(rows[i]);
-    pins.values.push_back(given[i].second);
-  }
-  return pins;
 }
 
 /// Options of PETSc in the command line, with their values; they are taken out of the words.
@@ -169,14 +87,18 @@ std::vector<std::string> takePetscOptions(std::vector<std::string>& words) {
   return options;
 }
 
+/// Prints a warning, in process 0.
+void warn(const std::string& text) {
+  if (processNumber() == 0) std::fprintf(stderr, "tufted-mpi: warning: %s\n", text.c_str());
+}
+
 /// Warns of options that PETSc did not ask for.
 void warnUnused() {
   PetscInt count = 0;
   char** names = nullptr;
   char** values = nullptr;
   PetscOptionsLeftGet(nullptr, &count, &names, &values);
-  for (PetscInt i = 0; i < count && processNumber() == 0; ++i)
-    std::fprintf(stderr, "tufted-mpi: warning: nothing has used the option -%s\n", names[i]);
+  for (PetscInt i = 0; i < count; ++i) warn("nothing has used the option -" + std::string(names[i]));
   PetscOptionsLeftRestore(nullptr, &count, &names, &values);
 }
 
@@ -208,10 +130,7 @@ class CommandLine {
     app_.footer(footer);
     settings_.tiles.cloud = tufted::cloudOptions(tufted::Preset::clean);
     settings_.tiles.cloud.threads = 1;
-    addLaplacian();
-    addPoisson();
-    addHarmonic();
-    addSpectrum();
+    for (const auto& subcommand : subcommands_) add(*subcommand);
   }
 
   /// Parses the words, and returns an exit code if that is all there is to do.
@@ -237,46 +156,46 @@ class CommandLine {
       checkInputs(source.size);
     });
     if (processNumber() != 0) open();
+    settings_.tiles.faces = chosen_->needsFaces();
     settings_.tiles.folder = existingFolder(settings_.out);
     const auto laplacian = tufted::distributedLaplacian(PETSC_COMM_WORLD, source, settings_.tiles);
-    compute_(laplacian, source);
-    auto report = reportOf(settings_, laplacian.report);
-    report["components"] = laplacian.components;
-    report.update(report_);
-    result_.report = report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-    tufted::writeDistributed(settings_.out, laplacian, result_);
-    warnUnused();
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    const auto seconds = [start] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
     PetscPrintf(PETSC_COMM_WORLD, "points      %lld, %lld take part, %s\narea        %.10g, the sum of M\n",
                 static_cast<long long>(laplacian.report.points), static_cast<long long>(laplacian.report.active),
                 countText(laplacian.components, "component").c_str(), laplacian.report.area);
-    if (report_.contains("iterations"))
-      PetscPrintf(PETSC_COMM_WORLD, "solved      in %d iterations, residual %.2g\n", report_["iterations"].get<int>(),
-                  report_["residual"].get<double>());
-    PetscPrintf(PETSC_COMM_WORLD, "took        %.3g s\nwritten to  %s\n", seconds.count(), settings_.out.c_str());
+    PetscPrintf(PETSC_COMM_WORLD, "built       in %.3g s\n", seconds());
+    MpiResults results;
+    chosen_->compute(laplacian, source, results);
+    auto report = reportOf(settings_, laplacian.report);
+    report["components"] = laplacian.components;
+    if (results.solve)
+      report.update({{"iterations", results.solve->iterations}, {"residual", results.solve->residual}});
+    results.files.report = report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    tufted::writeDistributed(settings_.out, laplacian, results.files);
+    for (const std::string& line : tufted::warnings(laplacian.report)) warn(settings_.file.string() + ": " + line);
+    for (const std::string& line : results.warnings) warn(line);
+    warnUnused();
+    if (results.solve)
+      PetscPrintf(PETSC_COMM_WORLD, "solved      in %d iterations, residual %.2g\n", results.solve->iterations,
+                  results.solve->residual);
+    PetscPrintf(PETSC_COMM_WORLD, "took        %.3g s\nwritten to  %s\n", seconds(), settings_.out.c_str());
   }
 
  private:
-  /// Reads the small files, and refuses what can be seen before the build. In process 0 alone: one message is enough.
+  /// Refuses what can be seen before the build. In process 0 alone: one message is enough.
   void checkInputs(std::int64_t points) {
-    for (const std::string& name : files_)
+    std::vector<std::string> files = chosen_->files;
+    files.emplace_back("report.json");
+    for (const std::string& name : files)
       refuseOverwriting("--out " + settings_.out.string(), settings_.out / name, inputsOf(*command_));
-    tufted::checkWritable(settings_.out, files_);
-    if (!settings_.values.empty()) given_values_ = tufted::readArray(settings_.values);
-    if (!settings_.values.empty() && (given_values_.rows() != points || given_values_.cols() != 1))
-      throw tufted::InvalidInput(settings_.values.string() + " has " + std::to_string(given_values_.rows()) + " x " +
-                                 std::to_string(given_values_.cols()) + " values, must have " + std::to_string(points) +
-                                 " x 1, one per point");
-    if (!settings_.pins.empty()) given_pins_ = readPins(settings_.pins);
-    for (const auto& [point, value] : given_pins_)
-      if (point < 0 || point >= points)
-        throw tufted::InvalidInput("--pins: point " + std::to_string(point) + ", must be in [0, " +
-                                   std::to_string(points) + ")");
+    tufted::checkWritable(settings_.out, files);
+    chosen_->check(points);
   }
 
-  /// @param files names of the results
-  CLI::App& add(const char* name, const char* description, std::vector<std::string> files, Compute compute) {
-    CLI::App& command = *app_.add_subcommand(name, description);
+  void add(MpiSubcommand& subcommand) {
+    CLI::App& command = *app_.add_subcommand(subcommand.name, subcommand.description);
     command.add_option("FILE", settings_.file, "Cloud: LAS, PLY, PCD, NPY, text in columns")
         ->required()
         ->check(notEmpty);
@@ -290,90 +209,19 @@ class CommandLine {
         [this](std::size_t bytes, const std::string&) { settings_.tiles.memory = static_cast<double>(bytes); },
         "Memory of a build of tiles in each process; rows and solvers come on top, see docs/scale.md")
         ->default_str("4G");
-    files.emplace_back("report.json");
-    command.callback([this, &command, files = std::move(files), compute = std::move(compute)] {
+    subcommand.addOptions(command);
+    command.callback([this, &command, &subcommand] {
       command_ = &command;
-      files_ = files;
-      compute_ = compute;
+      chosen_ = &subcommand;
     });
-    return command;
-  }
-
-  void addSolve(const tufted::DistributedSolve& made) {
-    report_["iterations"] = made.iterations;
-    report_["residual"] = made.residual;
-  }
-
-  void addLaplacian() {
-    add("laplacian", "Write L and M as files of PETSc.", {"L.petsc", "M.petsc", "row.npy"},
-        [this](const auto&, const auto&) { result_.has_matrices = true; });
-  }
-
-  void addPoisson() {
-    CLI::App& command =
-        add("poisson", "Solve L u = M f; writes u.npy.", {"u.npy"}, [this](const auto& laplacian, const auto& source) {
-          const tufted::PetscVector f = settings_.values.empty()
-                                            ? coordinateOf(laplacian, source, settings_.coordinate[0] - 'x')
-                                            : valuesByRowOf(laplacian, given_values_);
-          tufted::DistributedSolve made;
-          kept_.push_back(poisson(laplacian, f.get(), &made));
-          addSolve(made);
-          result_.arrays = {{"u", {kept_.back().get()}}};
-        });
-    const CLI::Option* const values =
-        command.add_option("--values", settings_.values, "f, a .npy file of N values; process 0 reads it as a whole")
-            ->type_name("NPY");
-    const CLI::Option* const coordinate =
-        command.add_option("--coordinate", settings_.coordinate, "f is a coordinate of the points")
-            ->check(CLI::IsMember({"x", "y", "z"}));
-    command.parse_complete_callback([values, coordinate] {
-      if (values->count() + coordinate->count() != 1)
-        throw CLI::RequiredError("exactly one of --values and --coordinate");
-    });
-  }
-
-  void addHarmonic() {
-    CLI::App& command = add("harmonic", "Interpolate values of some points harmonically; writes values.npy.",
-                            {"values.npy"}, [this](const auto& laplacian, const auto&) {
-                              const Pins pins = pinsOf(laplacian, given_pins_);
-                              tufted::DistributedSolve made;
-                              kept_.push_back(harmonic(laplacian, pins.rows, pins.values, &made));
-                              addSolve(made);
-                              result_.arrays = {{"values", {kept_.back().get()}}};
-                            });
-    command.add_option("--pins", settings_.pins, "Text file of pins, lines INDEX VALUE")->required()->type_name("TEXT");
-  }
-
-  void addSpectrum() {
-    CLI::App& command = add("spectrum", "Find the smallest positive eigenvalues; writes evals.npy and evecs.npy.",
-                            {"evals.npy", "evecs.npy"}, [this](const auto& laplacian, const auto&) {
-                              auto found = spectrum(laplacian, settings_.count, settings_.tolerance);
-                              addSolve(found.report);
-                              kept_ = std::move(found.vectors);
-                              tufted::DistributedArray vectors = {"evecs", {}};
-                              for (const auto& vector : kept_) vectors.columns.push_back(vector.get());
-                              result_.arrays = {std::move(vectors)};
-                              result_.lists = {{"evals", std::move(found.values)}};
-                            });
-    command.add_option("--count", settings_.count, "Number of eigenpairs")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    command.add_option("--tolerance", settings_.tolerance, "Tolerance on their residual, below 1")
-        ->check(CLI::Range(1e-15, 0.999))
-        ->capture_default_str();
   }
 
   CLI::App app_;
   Settings settings_;
-  // What the subcommand that was given has set:
+  const std::vector<std::unique_ptr<MpiSubcommand>> subcommands_ = mpiSubcommands();
+  // The subcommand that was given:
   const CLI::App* command_ = nullptr;
-  std::vector<std::string> files_;  ///< names of its results
-  Compute compute_;
-  Eigen::MatrixXd given_values_;                             ///< in process 0
-  std::vector<std::pair<std::int64_t, double>> given_pins_;  ///< in process 0
-  std::vector<tufted::PetscVector> kept_;                    ///< vectors of the result
-  tufted::DistributedResult result_;
-  nlohmann::ordered_json report_ = nlohmann::ordered_json::object();
+  MpiSubcommand* chosen_ = nullptr;
 };
 
 /// Prints a message and ends all processes. Where all fail alike, process 0 speaks.
