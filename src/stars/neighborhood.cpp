@@ -32,6 +32,12 @@ std::array<Covariance, nested_sets> nestedCovariances(const Offsets& neighbors, 
   return covariances;
 }
 
+/// Whether the nearest few are as thick as wide, as on a thin cable: more neighbours lie along it, seemingly on a line.
+bool haveThickFew(Offsets neighbors) {
+  neighbors.count = std::min(neighbors.count, few_neighbors[0]);
+  return areThick(principalAxes(neighbors));
+}
+
 void takeAxes(std::size_t set, const PrincipalAxes& axes, Neighborhood& neighborhood) {
   (set < few_neighbors.size() ? neighborhood.axes_of_few[set] : neighborhood.axes) = axes;
 }
@@ -131,7 +137,7 @@ void NeighborhoodFinder::refine(int p, Neighborhood& neighborhood, OffsetBuffer&
     neighborhood.grown = true;
   }
   neighborhood.fit_radius = neighborhood.radius;
-  neighborhood.thick = areThick(neighborhood.axes);
+  neighborhood.thick = areThick(neighborhood.axes) || (neighborhood.grown && haveThickFew(offsets.view()));
   if (!splitsSheets()) return;
   if (neighborhood.grown) {  // the nearest few may have changed
     std::array<PrincipalAxes, nested_sets> axes;

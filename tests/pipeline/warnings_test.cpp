@@ -39,9 +39,9 @@ Points cable(double around, std::uint64_t seed) {
 
 TEST(Warnings, TellOfCablesThatNeighbourhoodsWrapAround) {
   for (const int seed : {101, 102}) {
-    for (const double around : {6., 8.}) {
+    for (const double around : {3., 4., 5., 6., 8.}) {
       const Report report = pointCloudLaplacian(cable(around, seed)).report;
-      EXPECT_GT(report.thick_neighborhoods, 1500) << around;
+      EXPECT_GT(report.thick_neighborhoods, 1000) << around;  // of 3,000; a third of three around lie along lines
       EXPECT_TRUE(has(onlyOf(warnings(report)), "as thick as wide")) << around;
     }
     // With fewer neighbours, and for thicker cables, there is nothing to be said, and areas are right.
