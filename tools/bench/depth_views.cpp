@@ -147,7 +147,7 @@ View nearView(std::uint64_t seed) {
   using enum Body::Kind;
   return viewOf(seed, "near: mug, ball, pole, table, wall",
                 {{cylinder, {0, 0, 0.6}, Eigen::Vector3d::UnitY(), mug_radius},
-                 {ball, {0.12, 0.02, 0.65}, Eigen::Vector3d::Zero(), near_ball_radius},
+                 {ball, {0.12, 0.02, 0.65}, Eigen::Vector3d::Zero(), 0.05},
                  {cylinder, {-0.1, 0, 0.7}, Eigen::Vector3d::UnitY(), 0.0018},
                  {plane, {0, 0.12, 0}, Eigen::Vector3d(0, -0.9, -0.3).normalized()},
                  wall(0.9, {0, 0, -1})});

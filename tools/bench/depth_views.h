@@ -50,8 +50,8 @@ std::vector<View> views(std::uint64_t seed);
 View ballView(std::uint64_t seed);
 /// A mug, a ball, a pole, a table and a wall, numbered so.
 View nearView(std::uint64_t seed);
-constexpr double mug_radius = 0.04, near_ball_radius = 0.05;  // m
-constexpr double ball_depth = 1.2, ball_radius = 0.4;         // m
+constexpr double mug_radius = 0.04;                    // m
+constexpr double ball_depth = 1.2, ball_radius = 0.4;  // m
 
 /// Noise of a camera that measures disparities, or times of flight.
 struct CameraNoise {
