@@ -63,8 +63,8 @@ Points imageOf(double radius, bool is_ball) {
   return points;
 }
 
-/// The median error of the larger and the smaller curvature, over 1 / radius, at `columns` x `rows` pixels. Left out
-/// are those near the rims, where the body turns away.
+/// The larger of the errors of both curvatures, times the radius, at the median pixel of `columns` x `rows`. Pixels
+/// near the rims, where the body turns away, are left out.
 double curvatureError(const Points& points, int columns, int rows, double radius, bool is_ball) {
   const Laplacian laplacian = image_tests::imageLaplacian(points, columns, rows);
   const Curvatures found = curvatures(laplacian);
@@ -77,7 +77,10 @@ double curvatureError(const Points& points, int columns, int rows, double radius
     const Eigen::RowVector2d exact(1, is_ball ? 1 : 0);
     errors.push_back((found.principal.row(i) * radius - exact).cwiseAbs().maxCoeff());
   }
-  EXPECT_GT(errors.size(), 150U);
+  if (errors.size() < 150) {
+    ADD_FAILURE() << errors.size() << " points";
+    return INFINITY;
+  }
   std::nth_element(errors.begin(), errors.begin() + std::ssize(errors) / 2, errors.end());
   return errors[errors.size() / 2];
 }
