@@ -39,7 +39,10 @@ constexpr int most_points = 800;
 constexpr double confidence = 0.7;
 /// Where the fitted surface is steeper than this over its plane, the plane is turned to be tangent and the heights are
 /// measured anew. With 0.001 a sphere of 1,000 points is exact to 1.5e-5 only.
-constexpr double most_slope = 1e-5;
+constexpr double exact_slope = 1e-5;
+/// The same for windows of noisy points. An image takes two thirds of the time that it takes with 1e-5, and the errors
+/// of a sphere and a torus with 1 % noise stay.
+constexpr double noisy_slope = 1e-2;
 /// Maximum number of turns of the plane for one window. With one turn the error of half a cylinder is twenty times as
 /// large if the given normals lean by 29 degrees.
 constexpr int most_turns = 5;
@@ -80,7 +83,7 @@ class Fitter {
     rings_.start(p);
     if (given_rings_ > 0) {
       growTo(given_rings_);
-      return fitWindow(p);
+      return fitWindow(p, exact_slope);
     }
     growTo(window_rings.front());
     return widestWindow(p, noiseAround());
@@ -96,7 +99,7 @@ class Fitter {
       if (noise > 0 && rings < least_noisy_rings) continue;
       growTo(rings);
       if (best && std::ssize(rings_.points()) > most_points) break;
-      const std::optional<Window> window = fitWindow(p);
+      const std::optional<Window> window = fitWindow(p, noise > 0 ? noisy_slope : exact_slope);
       if (!window) continue;
       if (noise == 0) return window;
       const double half = confidence * window->deviation(noise);
@@ -124,16 +127,17 @@ class Fitter {
     return 2 * moved > std::ssize(rings_.points()) ? sum / static_cast<double>(moved) : 0;
   }
 
-  /// Fits heights at the points of the rings.
-  std::optional<Window> fitWindow(int p) {
+  /// Fits heights at the points of the rings, over a plane turned until the surface is at most this steep.
+  std::optional<Window> fitWindow(int p, double most_slope) {
     const Eigen::RowVector3d center = positions_.row(p);
     const std::vector<int>& points = rings_.points();
     double extent = 0, farthest = 0;
     for (const int q : points) extent = std::max(extent, (positions_.row(q) - center).cwiseAbs().maxCoeff());
     const bool has_extent = extent > 0 && std::isfinite(extent);
     const double unit = has_extent ? std::ldexp(1.0, std::clamp(std::ilogb(extent), -1000, 1000)) : 1;
+    const double scale = 1 / unit;  // exact, and faster than divisions
     offsets_.fill(static_cast<int>(std::ssize(points)) - 1, [&](int i) {
-      const Eigen::RowVector3d d = (positions_.row(points[i + 1]) - center) / unit;
+      const Eigen::RowVector3d d = (positions_.row(points[i + 1]) - center) * scale;
       farthest = std::max(farthest, d.squaredNorm());
       return d;
     });

@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
                                                     {"depth", bench::printDepthImages},
                                                     {"depth-denoise", bench::printDenoisedImages},
                                                     {"depth-spectrum", bench::printDepthSpectra},
+                                                    {"depth-curvature", bench::printDepthCurvatures},
                                                     {"frames", bench::printDepthImageSpeed}};
   CLI::App app("Tables of distances, interpolation, Green's functions, maps and moved points against what is exact.");
   std::vector<std::string> names;

@@ -18,16 +18,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Whether a pixel is at least five pixels from the edges of its body and of the image.
-bool isInside(const View& view, int i) {
-  const int row = i / view.width, column = i % view.width;
-  if (row < 5 || column < 5 || row >= view.height - 5 || column >= view.width - 5) return false;
-  for (int r = row - 5; r <= row + 5; ++r)
-    for (int c = column - 5; c <= column + 5; ++c)
-      if (view.bodies[r * view.width + c] != view.bodies[i]) return false;
-  return view.bodies[i] >= 0;
-}
-
 /// Whether an edge leads from one body to another along the line of sight.
 bool isAcrossJump(const View& view, int i, int j) {
   if (view.bodies[i] == view.bodies[j]) return false;
@@ -35,13 +25,6 @@ bool isAcrossJump(const View& view, int i, int j) {
   const double along = std::abs(a.norm() - b.norm());
   const double across = std::sqrt(std::max(0.0, (a - b).squaredNorm() - along * along));
   return along > 6 * across + 0.01 * a.z();
-}
-
-double quantile(std::vector<double>& values, double share) {
-  if (values.empty()) return nothing;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 /// Figures of one build.
@@ -68,7 +51,7 @@ Quality measure(const View& view, const Points& points, const Laplacian& laplaci
     const Eigen::Vector3d x = view.points.row(i), normal = view.normals.row(i);
     const double pixel = x.z() * x.z() / (view.focal * view.focal) / std::abs(normal.dot(x / x.z()));
     areas[view.areaOf(i, view.bodies[i])] += laplacian.M[i];
-    const bool is_inside = isInside(view, i);
+    const bool is_inside = isInside(view, i, 5);
     if (is_inside) {
       const double cosine = std::abs(normal.dot(laplacian.frames.normals.row(i).transpose()));
       angles.push_back(degrees * std::acos(std::min(1.0, cosine)));
@@ -105,7 +88,7 @@ Quality measure(const View& view, const Points& points, const Laplacian& laplaci
 double offSurface(const View& view, const Points& points) {
   double sum = 0, count = 0;
   for (int i = 0; i < points.rows(); ++i) {
-    if (!std::isfinite(points(i, 0)) || !isInside(view, i)) continue;
+    if (!std::isfinite(points(i, 0)) || !isInside(view, i, 5)) continue;
     sum += std::pow((points.row(i) - view.points.row(i)).dot(view.normals.row(i)), 2);
     ++count;
   }

@@ -117,24 +117,46 @@ View roomView() {
   return view;
 }
 
+Body wall(double depth, const Eigen::Vector3d& normal) {
+  return {Body::Kind::plane, {0, 0, depth}, normal.normalized()};
+}
+
 }  // namespace
+
+bool isInside(const View& view, int pixel, int pixels) {
+  const int row = pixel / view.width, column = pixel % view.width;
+  if (std::min(row, column) < pixels || row >= view.height - pixels || column >= view.width - pixels) return false;
+  for (int r = row - pixels; r <= row + pixels; ++r)
+    for (int c = column - pixels; c <= column + pixels; ++c)
+      if (view.bodies[r * view.width + c] != view.bodies[pixel]) return false;
+  return view.bodies[pixel] >= 0;
+}
+
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return nothing;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
 
 View ballView(std::uint64_t seed) {
   return viewOf(seed, "ball, 1.2 m", {{Body::Kind::ball, {0, 0, ball_depth}, Eigen::Vector3d::Zero(), ball_radius}});
 }
 
+View nearView(std::uint64_t seed) {
+  using enum Body::Kind;
+  return viewOf(seed, "near: mug, ball, pole, table, wall",
+                {{cylinder, {0, 0, 0.6}, Eigen::Vector3d::UnitY(), mug_radius},
+                 {ball, {0.12, 0.02, 0.65}, Eigen::Vector3d::Zero(), 0.05},
+                 {cylinder, {-0.1, 0, 0.7}, Eigen::Vector3d::UnitY(), 0.0018},
+                 {plane, {0, 0.12, 0}, Eigen::Vector3d(0, -0.9, -0.3).normalized()},
+                 wall(0.9, {0, 0, -1})});
+}
+
 std::vector<View> views(std::uint64_t seed) {
   using enum Body::Kind;
-  const auto wall = [](double depth, const Eigen::Vector3d& normal) {
-    return Body{plane, {0, 0, depth}, normal.normalized()};
-  };
   return {roomView(),
-          viewOf(seed, "near: mug, ball, pole, table, wall",
-                 {{cylinder, {0, 0, 0.6}, Eigen::Vector3d::UnitY(), 0.04},
-                  {ball, {0.12, 0.02, 0.65}, Eigen::Vector3d::Zero(), 0.05},
-                  {cylinder, {-0.1, 0, 0.7}, Eigen::Vector3d::UnitY(), 0.0018},
-                  {plane, {0, 0.12, 0}, Eigen::Vector3d(0, -0.9, -0.3).normalized()},
-                  wall(0.9, {0, 0, -1})}),
+          nearView(seed),
           ballView(seed),
           viewOf(seed, "corner, 1.2 m",
                  {{plane, {0, 0.4, 0}, Eigen::Vector3d(0, -0.8, -0.6)}, wall(1.2, {-1, 0, -1}), wall(1.2, {1, 0, -1})}),

@@ -38,10 +38,19 @@ struct View {
   }
 };
 
+/// Whether a pixel is at least this many pixels from the edges of its body and of the image.
+bool isInside(const View& view, int pixel, int pixels);
+
+/// Reorders the values. `nothing` if there are none.
+double quantile(std::vector<double>& values, double share);
+
 /// A room, things on a table, a ball, a corner, walls and a floor. In the room the seed does not rotate the camera.
 std::vector<View> views(std::uint64_t seed);
 
 View ballView(std::uint64_t seed);
+/// A mug, a ball, a pole, a table and a wall, numbered so.
+View nearView(std::uint64_t seed);
+constexpr double mug_radius = 0.04;                    // m
 constexpr double ball_depth = 1.2, ball_radius = 0.4;  // m
 
 /// Noise of a camera that measures disparities, or times of flight.

@@ -27,6 +27,7 @@ void printNoise();            ///< denoised points
 void printDepthImages();      ///< Laplacians of depth images, by pixels and by the tree
 void printDenoisedImages();   ///< denoise() of depth images
 void printDepthSpectra();     ///< eigenvalues of a depth image
+void printDepthCurvatures();  ///< curvatures of every pixel, and of every second and third row and column
 void printDepthImageSpeed();  ///< time and memory of depth images
 void printHandles();          ///< deformations of well and badly triangulated solids, and of boolean results
 void printWeights();          ///< bounded biharmonic weights on slivers
