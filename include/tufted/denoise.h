@@ -26,7 +26,7 @@ struct DenoiseReport {
   std::int64_t moved = 0;       ///< points that moved, coincident ones not counted
   /// Points that stayed because their neighbourhood is a curve, a volume, or as thick as wide.
   std::int64_t no_surface = 0;
-  double pixel_fill = 0;      ///< pixelFill() of the depth image; 0 without one
+  double sparse_share = 0;    ///< sparseShare() of the depth image; 0 without one
   std::int64_t unplaced = 0;  ///< usable points without a pixel of their own in the depth image; they stay in place
   /// Points that stayed because they hover over the surface of their neighbours; in a depth image points that no
   /// surface joins to another point in the 7 x 7 pixels around.

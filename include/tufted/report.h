@@ -33,7 +33,7 @@ struct Report {
   bool neighbors_clamped = false;        ///< whether the k asked for exceeded N - 1
   std::int64_t rejected_normals = 0;     ///< caller's normals that are zero or not finite, replaced by those of the PCA
   std::int64_t rejected_neighbors = 0;   ///< caller's neighbours that are repeated, unusable or the point itself
-  double pixel_fill = 0;                 ///< pixelFill() of the depth image; 0 without one
+  double sparse_share = 0;               ///< sparseShare() of the depth image; 0 without one
   std::int64_t unplaced = 0;             ///< usable points that have no place in the structure of the scan
   std::int64_t cut_neighbors = 0;        ///< neighbours in the scan left out because the surface jumps in between
   std::int64_t grown_neighborhoods = 0;  ///< neighbourhoods that grew, see Growth; of a depth image windows widened
@@ -104,7 +104,7 @@ void visitNumbers(AnyReport& report, const Visit& visit) {
   visit("neighbors_clamped", report.neighbors_clamped);
   visit("rejected_normals", report.rejected_normals);
   visit("rejected_neighbors", report.rejected_neighbors);
-  visit("pixel_fill", report.pixel_fill);
+  visit("sparse_share", report.sparse_share);
   visit("unplaced", report.unplaced);
   visit("cut_neighbors", report.cut_neighbors);
   visit("grown_neighborhoods", report.grown_neighborhoods);

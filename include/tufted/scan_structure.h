@@ -35,8 +35,8 @@ ScanStructure imageStructure(int width, int height, const Eigen::Vector3d& origi
 /// camera at `origin`, turned in any way, saw its pixel. A cloud that was moved without `origin` is not.
 /// @param points width x height rows, row by row; points that are not finite are skipped
 /// @param origin position of the sensor, in the unit of the points
-/// @return also false for fewer than 100 finite points, fewer than 8 rows or columns, or a pixelFill() below
-/// least_pixel_fill
+/// @return also false for fewer than 100 finite points, fewer than 8 rows or columns, or a sparseShare() above
+/// most_sparse
 bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 /// The structure of a spinning scanner's cloud whose ring numbers are known.
@@ -55,19 +55,20 @@ ScanStructure ringStructure(const Points& points, std::vector<int> ring,
 /// than a quarter of that
 ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-/// How densely the pixels of an organized cloud are filled around its points: the share of pixels that hold a point, in
-/// the 5 x 5 pixels around a point, averaged over the points of the sparsest of 4 x 4 parts of the image; a part counts
-/// if it holds at least half as much of the surface as one does on average. Holes hardly change it, however large; with
-/// half of the pixels missing at random, in all of the image or in one part, it is about 0.5. Rows and columns without
+/// The share of an organized cloud's surface that is sparse: around which fewer than half of the other 24 of 5 x 5
+/// pixels hold points. Rims of holes hardly count, however large the holes. If half of the pixels are missing at
+/// random, in all of the image or in a part of it, about half of the surface there is sparse. Rows and columns without
 /// any point are left out, as in a build, unless the rows that remain are more than 12 times as far apart as the
 /// columns, or the other way round. Points at the origin count as missing.
 /// @param points width x height rows, row by row
 /// @param origin position of the sensor, in the unit of the points
 /// @return in [0, 1]; 0 without a point or if `points` has another number of rows
-double pixelFill(const Points& points, int width, int height, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
+double sparseShare(const Points& points, int width, int height,
+                   const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-/// A depth image with a smaller pixelFill() is built better from neighbours in space, because windows of pixels hold
-/// too little of the surface to find noise and jumps. isDepthImage() returns false for it.
-inline constexpr double least_pixel_fill = 0.65;
+/// A depth image with a greater sparseShare() is built better from neighbours in space, because windows of pixels hold
+/// too little of the surface to find noise and jumps. isDepthImage() returns false for it. Ten real images have 0.004
+/// at most.
+inline constexpr double most_sparse = 0.03;
 
 }  // namespace tufted

@@ -66,7 +66,7 @@ void moveOntoSurface(const RankedCloud& cloud, const Workers& workers, DenoisedP
 
 void moveAlongRays(const RankedScan& scan, const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {
   PixelGrid grid = pixelGrid(scan);
-  denoised.report.pixel_fill = pixelFill(grid);
+  denoised.report.sparse_share = sparseShare(grid);
   const SurfaceImage image = surfaceImage(std::move(grid), cloud.points, true, workers);
   const auto noiseOf = [&](int p) { return image.noiseOf(p, cloud.points); };
   apply(image.windows.displacement, noiseOf, cloud, denoised);

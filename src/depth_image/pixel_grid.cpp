@@ -8,7 +8,7 @@
 #include <string>
 
 #include "neighbors/scan/pinhole.h"
-#include "neighbors/scan/pixel_fill.h"
+#include "neighbors/scan/sparse_share.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -167,8 +167,8 @@ void findAxis(const PointsView& points, const Workers& workers, PixelGrid& grid)
   }
 }
 
-double pixelFill(const PixelGrid& grid) {
-  return pixelFill(grid.row_line, grid.column_line, [&grid](int row, int column) {
+double sparseShare(const PixelGrid& grid) {
+  return sparseShare(grid.row_line, grid.column_line, [&grid](int row, int column) {
     return grid.rankAt(row + PixelGrid::margin, column + PixelGrid::margin) >= 0;
   });
 }

@@ -73,8 +73,8 @@ struct PixelGrid {
 /// @param around columns of an image that goes round, more than 2 x margin, of which none is left out; 0: it does not
 PixelGrid pixelGrid(const RankedScan& scan, int around = 0);
 
-/// How densely the image is filled, see pixelFill() in tufted/scan_structure.h.
-double pixelFill(const PixelGrid& grid);
+/// The share of the surface that is sparse, see sparseShare() in tufted/scan_structure.h.
+double sparseShare(const PixelGrid& grid);
 
 /// The stride of about `samples` of so many pixels, prime to the length of a row, so that samples lie in all columns.
 std::int64_t sampleStride(std::int64_t pixels, std::int64_t samples, std::int64_t row);

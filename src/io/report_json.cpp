@@ -37,11 +37,12 @@ Json conventionsObject(const std::vector<io::Convention>& conventions) {
 }
 
 Json denoiseObject(const DenoiseReport& report) {
-  return {{"points", report.points},       {"not_finite", report.not_finite},       {"coincident", report.coincident},
-          {"moved", report.moved},         {"no_surface", report.no_surface},       {"pixel_fill", report.pixel_fill},
-          {"unplaced", report.unplaced},   {"outliers", report.outliers},           {"noise", report.noise},
-          {"mean_move", report.mean_move}, {"farthest_move", report.farthest_move}, {"warnings", warnings(report)},
-          {"seconds", report.seconds}};
+  return {
+      {"points", report.points},       {"not_finite", report.not_finite},       {"coincident", report.coincident},
+      {"moved", report.moved},         {"no_surface", report.no_surface},       {"sparse_share", report.sparse_share},
+      {"unplaced", report.unplaced},   {"outliers", report.outliers},           {"noise", report.noise},
+      {"mean_move", report.mean_move}, {"farthest_move", report.farthest_move}, {"warnings", warnings(report)},
+      {"seconds", report.seconds}};
 }
 
 /// The options that clouds and meshes share.

@@ -87,7 +87,7 @@ CloudSurface findSurface(RankedCloud& cloud, const CloudOptions& options, const 
     RankedScan scan = rankScan(*options.structure, cloud, status, representative);
     if (!options.structure->has_rings) {
       PixelGrid grid = pixelGrid(scan);
-      report.pixel_fill = pixelFill(grid);
+      report.sparse_share = sparseShare(grid);
       return imageSurface(std::move(grid), cloud, options, workers, clock, report);
     }
     const auto image = columnsOfRings(std::move(scan), cloud.points, workers);

@@ -23,12 +23,11 @@ std::string percent(double share) {
 }
 
 /// Warns of a depth image with too many missing pixels.
-void addSparseImage(double fill, std::vector<std::string>& all) {
-  if (fill == 0 || fill >= least_pixel_fill) return;
-  all.push_back("only " + percent(fill) +
-                " of the pixels near points hold points, where the image is sparsest: as a plain cloud, without its "
-                "pixels, it does better below " +
-                percent(least_pixel_fill));
+void addSparseImage(double share, std::vector<std::string>& all) {
+  if (share <= most_sparse) return;
+  all.push_back("fewer than half of the pixels hold points around " + percent(share) +
+                " of the surface in the image: as a plain cloud, without its pixels, it does better above " +
+                percent(most_sparse));
 }
 
 }  // namespace
@@ -62,13 +61,13 @@ std::vector<std::string> warnings(const Report& report) {
       "the neighbourhoods of " + count(report.thick_neighborhoods) + " of " + count(report.points) +
           " points are as thick as wide, as in volumes and on cables that " + count(report.neighbors) +
           " neighbours reach around: areas may be far off, and fewer neighbours may do better");
-  addSparseImage(report.pixel_fill, all);
+  addSparseImage(report.sparse_share, all);
   return all;
 }
 
 std::vector<std::string> warnings(const DenoiseReport& report) {
   std::vector<std::string> all;
-  addSparseImage(report.pixel_fill, all);
+  addSparseImage(report.sparse_share, all);
   return all;
 }
 

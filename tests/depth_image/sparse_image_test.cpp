@@ -1,4 +1,5 @@
-// Depth images of which pixels are missing: in holes they stay images, all over they are no image any more.
+// Depth images of which pixels are missing: in holes they stay images, all over or in a part they are no image any
+// more.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -84,27 +85,42 @@ Missing onRings(int rings) {
   return [hit](int column, int row) { return hit[row * width + column] != 0; };
 }
 
-TEST(PixelFill, IsTheShareNearPointsAndNotOfTheImage) {
+TEST(SparseShare, IsThatOfTheSurfaceAndNotOfTheImage) {
   shapes::Random random(1);
-  const auto fillOf = [&](const Missing& isThere) {
-    return pixelFill(imageOf(ballDepth, isThere, 0, random), width, height);
+  const auto shareOf = [&](const Missing& isThere) {
+    return sparseShare(imageOf(ballDepth, isThere, 0, random), width, height);
   };
-  EXPECT_EQ(fillOf(atRandom(0, random)), 1);
-  for (const double missing : {0.1, 0.5, 0.9}) {
-    // The least of 16 parts, of which each has 1,200 pixels.
-    const double deviation = std::sqrt(missing * (1 - missing) / (pixels / 16));
-    EXPECT_LT(fillOf(atRandom(missing, random)), 1 - missing);
-    EXPECT_GT(fillOf(atRandom(missing, random)), 1 - missing - 4 * deviation);
-  }
-  // The rims of holes count in the sparsest part; below 0.65 an image is none.
-  for (int i = 0; i < 20; ++i) EXPECT_GT(fillOf(inHoles(random)), 0.75);
-  EXPECT_LT(fillOf(onRings(16)), 0.4);
-  EXPECT_LT(fillOf(onRings(64)), 0.65);
-  EXPECT_EQ(fillOf([](int, int) { return false; }), 0);
+  EXPECT_EQ(shareOf(atRandom(0, random)), 0);
+  EXPECT_LT(shareOf(atRandom(0.1, random)), 0.001);
+  EXPECT_NEAR(shareOf(atRandom(0.5, random)), 0.5, 0.05);
+  EXPECT_GT(shareOf(atRandom(0.9, random)), 0.99);
+  // Only where holes lie close together are their rims sparse.
+  for (int i = 0; i < 20; ++i) EXPECT_LT(shareOf(inHoles(random)), 0.025);
+  EXPECT_GT(shareOf(onRings(16)), 0.9);
+  EXPECT_GT(shareOf(onRings(64)), most_sparse);
+  EXPECT_EQ(shareOf([](int, int) { return false; }), 0);
   // As in a build, rows and columns that hold nothing are no part of the image.
-  EXPECT_EQ(fillOf([](int column, int row) { return column % 3 == 0 && row % 2 == 1; }), 1);
+  EXPECT_EQ(shareOf([](int column, int row) { return column % 3 == 0 && row % 2 == 1; }), 0);
   const Points points = imageOf(ballDepth, atRandom(0.3, random), 0, random);
-  EXPECT_EQ(pixelFill(points, width, height + 1), 0);
+  EXPECT_EQ(sparseShare(points, width, height + 1), 0);
+}
+
+TEST(SparseShare, OfAPartIsTheShareOfItsArea) {
+  const std::function<bool(int, int)> parts[] = {
+      [](int, int row) { return row >= 51 && row < 70; },                               // a band
+      [](int column, int row) { return std::hypot(column - 80, row - 60) < 25; },       // a disc
+      [](int column, int row) { return (column / 15 + row / 15) % 2 == 0; },            // a chessboard
+      [](int column, int row) { return (column + row) / 12 % 3 == 0; },                 // stripes
+      [](int column, int row) { return column >= width - 35 && row >= height - 35; }};  // a corner
+  shapes::Random random(2);
+  for (const auto& isSparse : parts) {
+    double area = 0;
+    for (int i = 0; i < pixels; ++i) area += isSparse(i % width, i / width) ? 1. / pixels : 0;
+    const auto isThere = [&](int column, int row) { return !isSparse(column, row) || random.uniform() < 0.15; };
+    const Points points = imageOf(ballDepth, isThere, 5e-4, random);
+    EXPECT_NEAR(sparseShare(points, width, height), area, 0.4 * area);  // its rim has points beside it
+    EXPECT_FALSE(isDepthImage(points, width, height));
+  }
 }
 
 /// Half of the image misses a share of its pixels at random, the other half none.

@@ -82,14 +82,11 @@ TEST(Warnings, TellOfImagesWhosePixelsAreMissing) {
     options.structure = &image;
     const Report report = pointCloudLaplacian(points, options).report;
     const DenoiseReport denoised = denoise(points, {.structure = &image}).report;
-    // The least of 16 parts, of which each has 300 pixels.
-    EXPECT_LE(report.pixel_fill, 1 - missing);
-    EXPECT_GE(report.pixel_fill, 1 - missing - 4 * std::sqrt(missing * (1 - missing) / (width * height / 16)));
-    EXPECT_EQ(denoised.pixel_fill, report.pixel_fill);
-    EXPECT_EQ(pixelFill(points, width, height), report.pixel_fill);
+    EXPECT_EQ(denoised.sparse_share, report.sparse_share);
+    EXPECT_EQ(sparseShare(points, width, height), report.sparse_share);
     for (const std::string& said : {onlyOf(warnings(report)), onlyOf(warnings(denoised))}) {
       EXPECT_EQ(said.empty(), missing < 0.3) << missing;
-      EXPECT_EQ(has(said, "of the pixels near points hold points"), missing > 0.3) << missing;
+      EXPECT_EQ(has(said, "fewer than half of the pixels hold points"), missing > 0.3) << missing;
     }
   }
 }

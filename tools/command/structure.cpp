@@ -22,8 +22,8 @@ Structure structureFor(const tufted::Geometry& geometry) {
 
 std::string doubtOf(const tufted::Geometry& geometry, Structure structure) {
   if (structure != Structure::image || structureFor(geometry) == Structure::image) return "";
-  const double fill = tufted::pixelFill(geometry.points, geometry.width, geometry.height, originOf(geometry));
-  if (fill > 0 && fill < tufted::least_pixel_fill) return "";  // the build warns of it
+  const double sparse = tufted::sparseShare(geometry.points, geometry.width, geometry.height, originOf(geometry));
+  if (sparse > tufted::most_sparse) return "";  // the build warns of it
   char text[200];
   const auto& at = geometry.viewpoint;
   std::snprintf(text, sizeof text,

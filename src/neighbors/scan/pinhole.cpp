@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/buffer.h"
-#include "neighbors/scan/pixel_fill.h"
+#include "neighbors/scan/sparse_share.h"
 #include "tufted/scan_structure.h"
 
 namespace tufted {
@@ -85,7 +85,7 @@ std::optional<Eigen::Vector3d> opticalAxis(std::span<const Sighting> sightings, 
   return camera.row(2).transpose().normalized() * (before > behind ? 1 : -1);
 }
 
-double pixelFill(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
+double sparseShare(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
   if (width < 1 || height < 1 || points.rows() != static_cast<Eigen::Index>(width) * height) return 0;
   const auto isHeld = [&](std::int64_t i) {
     const Eigen::Vector3d ray = points.row(i).transpose() - origin;
@@ -102,7 +102,7 @@ double pixelFill(const Points& points, int width, int height, const Eigen::Vecto
     return lines;
   };
   const PixelLines rows = linesOf(row_holds), columns = linesOf(column_holds);
-  return pixelFill(rows, columns, [&](int row, int column) { return held[rows[row] * width + columns[column]] != 0; });
+  return sparseShare(rows, columns, [&](int row, int column) { return held[rows[row] * width + columns[column]] != 0; });
 }
 
 bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
@@ -110,7 +110,7 @@ bool isDepthImage(const Points& points, int width, int height, const Eigen::Vect
       points.rows() != static_cast<Eigen::Index>(width) * height || !origin.allFinite())
     return false;
   return opticalAxis(takeSightings(points, width, height, origin), width, height).has_value() &&
-         pixelFill(points, width, height, origin) >= least_pixel_fill;
+         sparseShare(points, width, height, origin) <= most_sparse;
 }
 
 }  // namespace tufted

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -32,20 +31,14 @@ inline bool isStretched(const PixelLines& rows, const PixelLines& columns) {
   return stretch > most_stretch || 1 / stretch > most_stretch;
 }
 
-/// How densely an image is filled where it is sparsest. It is divided into 4 x 4 parts, and counted is, of the 5 x 5
-/// pixels around a pixel that holds a point, the mean share that hold points as well, from samples. At least 0.8 for 50
-/// images with a dozen holes of any size, and 1/2 if every second pixel is missing at random in one part. Rows and
-/// columns without points are not counted as missing, unless the lines are stretched, see isStretched(). 0 without
-/// pixels.
+/// The share of an image's surface that is sparse: around which fewer than half of the other pixels of 5 x 5 hold
+/// points as well, from samples. Rows and columns without points are not counted as missing, unless the lines are
+/// stretched, see isStretched(). 0 without points.
 /// @param holds holds(i, j): whether the pixel of (rows[i], columns[j]) holds a point
 template <class Holds>
-double pixelFill(const PixelLines& rows, const PixelLines& columns, const Holds& holds) {
-  constexpr std::int64_t samples = 1 << 15;  // number of sampled pixels: the share is off by 0.002
+double sparseShare(const PixelLines& rows, const PixelLines& columns, const Holds& holds) {
+  constexpr std::int64_t samples = 1 << 15;  // number of sampled pixels
   constexpr int reach = 2;                   // lines on each side: windows of 5 x 5 hold most stars
-  constexpr int parts = 4;                   // of the rows and of the columns
-  // A part counts if it holds at least half as much of the surface as one does on average: the rims of holes alone are
-  // sparse. The sparsest part of ten real images has 0.95.
-  constexpr double least_share = 1. / (2 * parts * parts);
   const bool counts_missing = isStretched(rows, columns);
   const auto height = static_cast<int>(rows.size()), width = static_cast<int>(columns.size());
   // The range of the lines with points that are at most `reach` away from `line`.
@@ -64,11 +57,7 @@ double pixelFill(const PixelLines& rows, const PixelLines& columns, const Holds&
   const std::int64_t pixels = std::int64_t{height} * width;
   std::int64_t stride = std::max<std::int64_t>(1, pixels / samples);
   while (std::gcd(stride, width) > 1) ++stride;  // samples then lie in all columns
-  struct Part {
-    double near = 0, held = 0;
-    double pixels = 0;  // over which its points are spread
-  };
-  std::array<Part, std::size_t{parts} * parts> all;
+  double surface = 0, sparse = 0;                // in pixels, a part of the window for each of its points
   for (std::int64_t i = 0; i < pixels; i += stride) {
     const int row = static_cast<int>(i / width), column = static_cast<int>(i % width);
     if (!holds(row, column)) continue;
@@ -77,16 +66,11 @@ double pixelFill(const PixelLines& rows, const PixelLines& columns, const Holds&
     std::int64_t held = 0;
     for (int r = in_rows.first; r < in_rows.second; ++r)
       for (int c = in_columns.first; c < in_columns.second; ++c) held += holds(r, c) ? 1 : 0;
-    Part& part = all[std::int64_t{row} * parts / height * parts + std::int64_t{column} * parts / width];
-    part.near += static_cast<double>(window - 1);
-    part.held += static_cast<double>(held - 1);
-    part.pixels += static_cast<double>(window) / static_cast<double>(held);
+    const double spread = static_cast<double>(window) / static_cast<double>(held);
+    surface += spread;
+    if (2 * (held - 1) < window - 1) sparse += spread;
   }
-  double pixels_of_all = 0, least = 1;
-  for (const Part& part : all) pixels_of_all += part.pixels;
-  for (const Part& part : all)
-    if (part.pixels >= least_share * pixels_of_all) least = std::min(least, part.near > 0 ? part.held / part.near : 0);
-  return pixels_of_all > 0 ? least : 0;
+  return surface > 0 ? sparse / surface : 0;
 }
 
 }  // namespace tufted
