@@ -102,7 +102,8 @@ double sparseShare(const Points& points, int width, int height, const Eigen::Vec
     return lines;
   };
   const PixelLines rows = linesOf(row_holds), columns = linesOf(column_holds);
-  return sparseShare(rows, columns, [&](int row, int column) { return held[rows[row] * width + columns[column]] != 0; });
+  return sparseShare(rows, columns,
+                     [&](int row, int column) { return held[rows[row] * width + columns[column]] != 0; });
 }
 
 bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
