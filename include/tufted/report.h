@@ -39,8 +39,8 @@ struct Report {
   std::int64_t grown_neighborhoods = 0;  ///< neighbourhoods that grew, see Growth; of a depth image windows widened
   std::int64_t split_neighborhoods = 0;  ///< neighbourhoods from which neighbours on other sheets were left out
   std::int64_t isolated_by_sheets = 0;   ///< points without a star because nearly all neighbours lie on other sheets
-  std::int64_t thick_neighborhoods = 0;  ///< neighbourhoods of one sheet whose smallest variance is above half of the
-                                         ///< middle one: thin bodies, volumes, strong noise
+  std::int64_t thick_neighborhoods = 0;  ///< neighbourhoods of one sheet, or of the nearest 8 along a line, whose least
+                                         ///< variance is above half of the middle one: thin bodies, cables, volumes
   std::int64_t outliers = 0;             ///< points without a star, see CloudSteps::isolate_outliers
   std::int64_t denoised = 0;             ///< points moved onto the surface, see CloudSteps::denoise
   /// Median of Laplacian::noise over the points that were moved, in the caller's unit; 0 if none was.

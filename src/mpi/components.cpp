@@ -19,7 +19,8 @@ struct Part {
 
 /// Pairs of parts that an entry of L connects, of all processes.
 std::vector<std::pair<PetscInt, PetscInt>> connectedParts(MPI_Comm comm, const std::vector<std::size_t>& begin,
-                                                          const std::vector<PetscInt>& column, PetscInt first,
+                                                          const std::vector<PetscInt>& column,
+                                                          const std::vector<PetscScalar>& value, PetscInt first,
                                                           const std::vector<PetscInt>& part, Vec part_of_row) {
   const auto size = static_cast<PetscInt>(part.size());
   std::vector<std::int64_t> outside;
@@ -31,7 +32,7 @@ std::vector<std::pair<PetscInt, PetscInt>> connectedParts(MPI_Comm comm, const s
   for (std::size_t i = 0; i < part.size(); ++i)
     for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) {
       const PetscInt c = column[e];
-      if (c >= first && c < first + size) continue;
+      if (!(value[e] < 0) || (c >= first && c < first + size)) continue;
       const auto place = std::lower_bound(outside.begin(), outside.end(), c) - outside.begin();
       pairs.emplace_back(part[i], static_cast<PetscInt>(theirs[place]));
     }
@@ -42,7 +43,7 @@ std::vector<std::pair<PetscInt, PetscInt>> connectedParts(MPI_Comm comm, const s
 }  // namespace
 
 void findComponents(MPI_Comm comm, const std::vector<std::size_t>& begin, const std::vector<PetscInt>& column,
-                    DistributedLaplacian& result) {
+                    const std::vector<PetscScalar>& value, DistributedLaplacian& result) {
   const std::vector<double> areas = localOf(result.M.get());
   const auto size = static_cast<PetscInt>(areas.size());
   PetscInt first = 0;
@@ -50,7 +51,7 @@ void findComponents(MPI_Comm comm, const std::vector<std::size_t>& begin, const 
   DisjointSets rows(size);
   for (PetscInt i = 0; i < size; ++i)
     for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
-      if (column[e] >= first && column[e] < first + size) rows.unite(i, column[e] - first);
+      if (value[e] < 0 && column[e] >= first && column[e] < first + size) rows.unite(i, column[e] - first);
 
   std::vector<PetscInt> part(areas.size());
   std::vector<double> part_areas(areas.size());
@@ -71,7 +72,7 @@ void findComponents(MPI_Comm comm, const std::vector<std::size_t>& begin, const 
   check(VecDuplicate(result.M.get(), part_of_row.make()));
   setLocal(part_of_row.get(), {part.begin(), part.end()});
   DisjointSets components(std::ssize(parts));
-  for (const auto& [a, b] : connectedParts(comm, begin, column, first, part, part_of_row.get()))
+  for (const auto& [a, b] : connectedParts(comm, begin, column, value, first, part, part_of_row.get()))
     components.unite(indexOf(a), indexOf(b));
 
   std::vector<double> component_areas(parts.size());

@@ -1,8 +1,11 @@
 // Geodesic distance by the heat method (Crane, Weischedel, Wardetzky 2013, 2017) on several processes, as
 // src/algorithms/heat_distance.cpp finds it on one.
+#include "tufted/distance.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "base/infinity.h"
@@ -18,9 +21,6 @@
 
 namespace tufted {
 namespace {
-
-/// The time step of DistanceOptions.
-constexpr double time_step = 0.5;
 
 /// A face around a row of this process.
 struct FaceOfRow {
@@ -104,7 +104,7 @@ class HeatMethod {
     const std::vector<double> all = sumsOf(laplacian_, weights), sums = sumsOf(laplacian_, squares);
     for (std::size_t i = 0; i < areas.size(); ++i) {
       const PetscInt c = laplacian_.component[i];
-      areas[i] = sums[c] > 0 ? areas[i] / (time_step * sums[c] / all[c]) : 1;
+      areas[i] = sums[c] > 0 ? areas[i] / (DistanceOptions{}.time_step * sums[c] / all[c]) : 1;
     }
     return areas;
   }
@@ -130,6 +130,17 @@ class HeatMethod {
   int exponent_ = 0;
   std::vector<FaceOfRow> faces_;
 };
+
+/// By component, the greatest magnitude of values; 1 where all are 0.
+std::vector<double> unitsOf(const DistributedLaplacian& laplacian, const std::vector<double>& values) {
+  std::vector<int> rows(values.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  std::vector<double> magnitudes;
+  for (const double value : values) magnitudes.push_back(std::abs(value));
+  std::vector<double> units = greatestOfComponents(laplacian, rows, magnitudes, 0);
+  std::replace(units.begin(), units.end(), 0., 1.);
+  return units;
+}
 
 /// Shifts a function that is known up to a constant per component so that its mean at the sources is 0.
 void shift(const DistributedLaplacian& laplacian, const std::vector<std::uint8_t>& is_source,
@@ -173,12 +184,16 @@ PetscVector distance(const DistributedLaplacian& laplacian, const std::vector<Pe
   const std::vector<double> counts = sumsOf(laplacian, std::vector<double>(right.size(), 1));
   for (std::size_t i = 0; i < right.size(); ++i)  // rounding, and faces with different diagonals in two tiles
     right[i] -= sums[laplacian.component[i]] / counts[laplacian.component[i]];
+  // One residual judges all components, so each is solved for in its own unit.
+  const std::vector<double> unit = unitsOf(laplacian, right);
+  for (std::size_t i = 0; i < right.size(); ++i) right[i] /= unit[laplacian.component[i]];
   PetscVector b = like(laplacian.M.get()), u = like(laplacian.M.get());
   setLocal(b.get(), right);
   check(VecSet(u.get(), 0));
   if (report != nullptr) *report = {};
   solveLaplacian("distance", laplacian, b.get(), u.get(), report);
   std::vector<double> values = localOf(u.get());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] *= unit[laplacian.component[i]];
   shift(laplacian, is_source, values);
   for (double& value : values) value = std::ldexp(value, method.exponent());
   setLocal(u.get(), values);

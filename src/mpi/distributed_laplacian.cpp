@@ -76,7 +76,7 @@ void checkCount(std::int64_t points) {
   if (points > std::numeric_limits<PetscInt>::max())
     throw InvalidInput("distributedLaplacian: " + std::to_string(points) + " points, must be at most " +
                        std::to_string(std::numeric_limits<PetscInt>::max()) +
-                       ": PETSc with 64-bit indices takes more (libpetsc64-real-dev)");
+                       ": PETSc with 64-bit indices takes more (libpetsc64-real-dev, libslepc64-real3.18-dev)");
 }
 
 /// Numbers the active points of this process, from `first` on.
@@ -235,7 +235,7 @@ DistributedLaplacian distributedLaplacian(MPI_Comm comm, const PointSource& sour
   NumberedRows rows = numberColumns(built, result);
   if (options.faces) numberFaces(built, result);
   built = {};
-  findComponents(comm, rows.begin, rows.column, result);
+  findComponents(comm, rows.begin, rows.column, rows.value, result);
   assemble(comm, rows, result);
   return result;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "base/infinity.h"
 #include "mpi/petsc.h"
@@ -22,21 +23,14 @@ constexpr int first_layers = 32;
 constexpr double tolerance = 1e-13, least_kept = 1e-5;
 /// Beyond a window heat is taken for 0. Heat is kept above this many times the greatest at the window's rim: the
 /// relative error is the square of their ratio.
-constexpr double above_rim = 1e10;
+constexpr double above_rim = 1e6;
 /// A window from which only heat above this part of the greatest could be kept is widened.
 constexpr double highest_kept = 1e-3;
 
-/// The greatest value on each component, of all processes.
-std::vector<double> greatestOfComponents(const DistributedLaplacian& laplacian, const std::vector<int>& rows,
-                                         const std::vector<double>& values, double none) {
-  std::vector<double> greatest(static_cast<std::size_t>(laplacian.components), none);
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    double& value = greatest[laplacian.component[rows[k]]];
-    value = std::max(value, values[k]);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, greatest.data(), static_cast<int>(greatest.size()), MPI_DOUBLE, MPI_MAX,
-                commOf(laplacian));
-  return greatest;
+/// The sum over all processes.
+std::int64_t sumOf(const DistributedLaplacian& laplacian, std::int64_t number) {
+  MPI_Allreduce(MPI_IN_PLACE, &number, 1, MPI_INT64_T, MPI_SUM, commOf(laplacian));
+  return number;
 }
 
 class HeatSpread {
@@ -69,7 +63,8 @@ class HeatSpread {
   }
 
   std::vector<double> run() {
-    for (int layers = first_layers; findInflow();) {
+    for (int layers = first_layers; findInflow(); layers = std::max(first_layers, layers / 2)) {
+      window_size_ = 0;
       while (!solveWindow(layers)) layers *= 2;
       rows_.update(log_u_);
     }
@@ -189,6 +184,9 @@ class HeatSpread {
   /// Finds rows of a window. Returns false if it must be wider for that.
   bool solveWindow(int layers) {
     const std::vector<int> window = windowOf(layers);
+    const std::int64_t size = sumOf(laplacian_, std::ssize(window));
+    const bool may_widen = size > window_size_;  // false: all that can be reached is in the window
+    window_size_ = size;
     const std::vector<double> u = heatOf(window);
     std::vector<double> at_rim = isAtRim(window);
     for (std::size_t k = 0; k < u.size(); ++k) at_rim[k] *= u[k];
@@ -196,12 +194,16 @@ class HeatSpread {
     std::vector<double> kept = greatestOfComponents(laplacian_, window, at_rim, 0);
     for (std::size_t c = 0; c < top.size(); ++c) {
       kept[c] = std::max(least_kept * top[c], above_rim * kept[c]);
-      if (kept[c] > highest_kept * top[c]) return false;
+      if (kept[c] > highest_kept * top[c] && may_widen) return false;
     }
+    std::int64_t found = 0;
     for (std::size_t k = 0; k < u.size(); ++k) {
       const PetscInt c = laplacian_.component[window[k]];
-      if (u[k] >= kept[c] && u[k] > 0) log_u_[window[k]] = unit_[c] + std::log(u[k]);
+      if (!(u[k] >= std::min(kept[c], top[c]) && u[k] > 0)) continue;
+      log_u_[window[k]] = unit_[c] + std::log(u[k]);
+      ++found;
     }
+    if (sumOf(laplacian_, found) == 0) throw SolverFailure("distance: no heat leaves the rows that are known");
     return true;
   }
 
@@ -216,9 +218,10 @@ class HeatSpread {
   std::vector<int> from_;
   std::vector<double> weight_;
   std::vector<double> log_u_;
-  std::vector<int> entry_;      ///< rows ahead with an inflow
-  std::vector<double> inflow_;  ///< its logarithm
-  std::vector<double> unit_;    ///< by component, its greatest
+  std::vector<int> entry_;        ///< rows ahead with an inflow
+  std::vector<double> inflow_;    ///< its logarithm
+  std::vector<double> unit_;      ///< by component, its greatest
+  std::int64_t window_size_ = 0;  ///< of the last window of this round, in all processes
 };
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace tufted {
 
-/// Solves (D + L) u = heat for an u of which the logarithm is right everywhere, though u itself, which falls to a third
-/// with every edge, would soon underflow. Rows are found from the sources outwards, in rounds: each solves for a window
+/// Solves (D + L) u = heat for u, whose logarithm is accurate everywhere, though u itself, which falls to a third with
+/// every edge, would soon underflow. Rows are found from the sources outwards, in rounds: each solves for a window
 /// of rows ahead, given the heat of those that were found, and keeps those whose heat is far above the error of
 /// conjugate gradients. Collective.
 /// @param rows all columns of L in the rows of this process

@@ -1,5 +1,7 @@
 #include "mpi/rows.h"
 
+#include <algorithm>
+
 #include "mpi/petsc.h"
 #include "mpi/point_values.h"
 
@@ -34,6 +36,18 @@ std::vector<double> sumsOf(const DistributedLaplacian& laplacian, const std::vec
   for (std::size_t i = 0; i < values.size(); ++i) sums[laplacian.component[i]] += values[i];
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, commOf(laplacian));
   return sums;
+}
+
+std::vector<double> greatestOfComponents(const DistributedLaplacian& laplacian, const std::vector<int>& rows,
+                                         const std::vector<double>& values, double none) {
+  std::vector<double> greatest(static_cast<std::size_t>(laplacian.components), none);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    double& value = greatest[laplacian.component[rows[k]]];
+    value = std::max(value, values[k]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, greatest.data(), static_cast<int>(greatest.size()), MPI_DOUBLE, MPI_MAX,
+                commOf(laplacian));
+  return greatest;
 }
 
 PetscMatrix definiteOf(const DistributedLaplacian& laplacian) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/buffer.h"
@@ -47,7 +48,6 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
 /// Whether the azimuths of a scan lead to nearby points, as those of another scan, or equal ones, do not: most of a
 /// sample of points must find the nearest point of their ring and of the two rings beside it, or one at most twice
 /// as far, unless that lies beyond the ball that is searched. Rounded azimuths pass as long as few points share one.
-/// Points of a ring with the same azimuth are seen in the same direction, unless it was left at 0 or the like.
 bool azimuthsFit(const RankedScan& scan, const RankedCloud& cloud, const RingSearch& search, int k) {
   // Number of sampled points; each is compared with all points of three rings.
   constexpr int samples = 512;
@@ -56,26 +56,18 @@ bool azimuthsFit(const RankedScan& scan, const RankedCloud& cloud, const RingSea
   // Share of the sampled points. Azimuths blurred by a degree fit 0.93 of them; if a fifth of all is 0, as drivers
   // leave them, 0.82 fit at most.
   constexpr double least_fitting = 0.875;
-  // Share of points whose ring has one with the same azimuth in the opposite half of space, about half of those that
-  // were left at 0. If 0.2 % of the azimuths are 0, areas are 7 to 21 % too large.
-  constexpr double most_opposite = 0.0005;
   // The points of each ring that has any.
   std::map<int, Buffer<int>> rings;
   for (int p = 0; p < cloud.size(); ++p)
     if (scan.row[p] >= 0) rings[scan.row[p]].push_back(p);
-  std::size_t places = 0, points = 0, opposite = 0;
-  const auto direction = [&](int p) -> Eigen::RowVector3d { return cloud.points.row(p) - scan.origin.transpose(); };
+  std::size_t places = 0, points = 0;
   for (const auto& [row, ring] : rings) {
-    std::map<double, int> first;  // point at each azimuth
-    for (const int p : ring) {
-      const auto [place, is_new] = first.try_emplace(scan.position[p], p);
-      opposite += !is_new && direction(p).dot(direction(place->second)) < 0 ? 1 : 0;
-    }
-    places += first.size();
+    std::set<double> azimuths;
+    for (const int p : ring) azimuths.insert(scan.position[p]);
+    places += azimuths.size();
     points += ring.size();
   }
   if (points > most_at_once * places) return false;
-  if (static_cast<double>(opposite) > most_opposite * static_cast<double>(points)) return false;
   const auto squaredDistance = [&cloud](int p, int q) {
     return (cloud.points.row(p) - cloud.points.row(q)).squaredNorm();
   };

@@ -3,6 +3,7 @@
 
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,11 +19,12 @@ namespace {
 
 /// Builds a cloud by tiles.
 /// @param source path of a file, or N x 3 points
+/// @param selection_text what `selection` is, for report.json; empty: all points
 /// @return warnings
 std::vector<std::string> writeByTiles(const std::filesystem::path& dir, const py::object& source,
-                                      const Selection& selection, const std::string& preset, bool keep_noise,
-                                      double memory, int neighbors, double mollify, int threads,
-                                      const py::object& progress) {
+                                      const Selection& selection, const std::string& selection_text,
+                                      const std::string& preset, bool keep_noise, double memory, int neighbors,
+                                      double mollify, int threads, const py::object& progress) {
   TileOptions options;
   options.cloud.steps = cloudSteps(
       chosen<Preset>("preset", preset, {{"clean", Preset::clean}, {"scan", Preset::scan}, {"lidar", Preset::lidar}}));
@@ -30,7 +32,7 @@ std::vector<std::string> writeByTiles(const std::filesystem::path& dir, const py
   options.cloud.neighbors = neighbors;
   options.cloud.mollify = mollify;
   options.cloud.threads = threads;
-  TileSourceText text{.preset = preset, .keep_noise = keep_noise};
+  TileSourceText text{.selection = selection_text, .preset = preset, .keep_noise = keep_noise};
   const bool is_file = !py::isinstance<Doubles>(source);
   if (is_file) text.source = source.cast<std::filesystem::path>().string();
   const Doubles points = is_file ? Doubles() : source.cast<Doubles>();
@@ -41,6 +43,10 @@ std::vector<std::string> writeByTiles(const std::filesystem::path& dir, const py
     else
       static_cast<PointSource&>(opened) = sourceOf(pointsOf(points));
     options.progress = called;
+    if (opened.memory > 0 && memory <= opened.memory)
+      throw InvalidInput("laplacian_by_tiles: memory = " + std::to_string(std::llround(memory)) +
+                         " bytes, must be more than the " + std::to_string(std::llround(opened.memory)) +
+                         " that reading " + text.source + " takes");
     options.memory = memory - opened.memory;
     text.of = opened.of;
     text.rows = opened.rows;

@@ -53,6 +53,7 @@ class Tile final : public CloudPart {
   void takeStars(const SurfaceStars& built, const RankedCloud& cloud) override;
 
  private:
+  /// Adds the faces around the points of rows. @param own these points among those that are held, ascending
   void addFaces(const std::vector<Eigen::Index>& own, TileRows& rows) const;
   void hold(int cell);
   /// Holds cells, and those up to `width` cells from them.

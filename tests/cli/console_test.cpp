@@ -197,7 +197,7 @@ TEST_F(ConsoleOutput, EveryCommandTellsWhatMustBeKnownOfTheSurface) {
     EXPECT_EQ(result.err, "tufted: " + warnings[0].get<std::string>() + "\n");
   };
   const std::string image = dir_.write("image.pcd", sparseImage()), mesh = dir_.write("mesh.off", sheet(200));
-  const std::string of_image = "of the pixels near points hold points", of_mesh = "119 of 200 points take no part";
+  const std::string of_image = "fewer than half of the pixels hold points", of_mesh = "119 of 200 points take no part";
   for (const std::vector<std::string>& command : commands) {
     std::vector<std::string> words = command;
     words.insert(words.begin() + 1, image);

@@ -1,5 +1,5 @@
 // Every second row and column of a depth image: a quarter of the points, nearly the same eigenvalues and signatures,
-// and curvatures that are more right on large bodies, where noise decides.
+// and curvatures that are more accurate on large bodies, where noise decides.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,7 +85,7 @@ double curvatureError(const Points& points, int columns, int rows, double radius
   return errors[errors.size() / 2];
 }
 
-TEST(SecondPixel, CurvatureOfLargeBodiesIsMoreRight) {
+TEST(SecondPixel, CurvatureOfLargeBodiesIsMoreAccurate) {
   for (const bool is_ball : {true, false}) {
     constexpr double radius = 0.25;  // 98 pixels across
     const Points image = imageOf(radius, is_ball);

@@ -104,7 +104,7 @@ TEST_F(TuftedMpi, MistakesAreRefusedWithOneMessageAndNoResult) {
   expectRefused({"harmonic", cloud_, "--pins", dir_.write("pins.txt", "3 1\n4\n")}, 1,
                 in("pins.txt") + ": line 2: is not INDEX VALUE");
   expectRefused({"harmonic", cloud_, "--pins", dir_.write("pins.txt", "1200 1\n")}, 2,
-                in("pins.txt") + ": line 1 is no index in [0, 1200)");
+                in("pins.txt") + ": line 1: 1200 is no index in [0, 1200)");
   expectRefused({"poisson", cloud_, "--values", dir_.write("short.npy", readAll(cloud_))}, 1, in("short.npy"));
 }
 

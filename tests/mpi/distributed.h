@@ -41,7 +41,8 @@ inline Points sphere(int n, int seed, const Eigen::RowVector3d& center = {0, 0, 
   std::normal_distribution<double> normal;
   Points points(n, 3);
   for (int i = 0; i < n; ++i) {
-    const Eigen::RowVector3d direction(normal(random), normal(random), normal(random));
+    Eigen::RowVector3d direction;
+    for (double& value : direction) value = normal(random);
     points.row(i) = center + direction.normalized() * (1 + noise * normal(random));
   }
   return points;

@@ -136,6 +136,21 @@ TEST(DistributedSolves, DistanceIsTheSameInAnyUnit) {
   }
 }
 
+TEST(DistributedSolves, DistanceOnASmallComponentIsAsAccurate) {
+  constexpr double radius = 1e-5;
+  Points points(1500, 3);
+  points << sphere(1000, 101), (radius * sphere(500, 102)).rowwise() + Eigen::RowVector3d(0, 4, 0);
+  const std::vector<int> sources = {3, 1200};
+  const Eigen::VectorXd expected =
+      DistanceSolver(pointCloudLaplacian(points, clean()), {.method = DistanceMethod::heat}).query(sources);
+  const DistributedLaplacian laplacian = build(spread(points).own, 0, true);
+  const bool gives = processNumber() == 0;
+  const std::vector<std::int64_t> given = gives ? std::vector<std::int64_t>{3, 1200} : std::vector<std::int64_t>();
+  const Eigen::VectorXd found = byPoint(laplacian, distance(laplacian, rowsOf(laplacian, given)));
+  EXPECT_LT((found - expected).head(1000).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((found - expected).tail(500).cwiseAbs().maxCoeff(), 1e-6 * radius);
+}
+
 TEST(DistributedSolves, SpectrumIsThatOfTheWhole) {
   Points points(1500, 3);
   points << sphere(1000, 101), .7 * sphere(500, 102, {0, 9, 0});

@@ -44,7 +44,7 @@ OWN = {
     **{name: {"source": USUAL["target"], "start": np.eye(8), "C": np.eye(8)}
        for name in ("functional_map", "zoom_out", "point_maps")},
     "transport_tangent_vectors": {"vectors": [[1, 0]]}, "divergence": {"vectors": np.ones((64, 2))},
-    "signed_distance": {"sources": ()},
+    "signed_distance": {"sources": ()}, "laplacian_by_tiles": {"source": POINTS, "out": "tiles"},
     "MeshSignedHeatSolver.compute_distance": CURVE, "MeshFastMarchingDistanceSolver.compute_distance": CURVE,
 }
 # Arguments with defaults that usual calls have as well: without them some fail, and others take long.

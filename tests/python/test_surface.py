@@ -353,5 +353,5 @@ def test_sparse_depth_images_are_a_warning():
     points = np.array([((i % 80 - 40) / 50, (i // 80 - 30) / 50, 1) for i in range(4800)])
     points[np.random.default_rng(101).random(4800) < 0.7] = np.nan
     for build in (tufted.PointCloud, tufted.denoise):
-        with pytest.warns(tufted.TuftedWarning, match="of the pixels near points hold points"):
+        with pytest.warns(tufted.TuftedWarning, match="fewer than half of the pixels hold points"):
             build(points, image=(80, 60))

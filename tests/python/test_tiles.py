@@ -1,4 +1,6 @@
 """Clouds that are larger than memory."""
+import json
+
 import numpy as np
 import pytest
 import scipy.sparse
@@ -30,6 +32,8 @@ def test_tiles_of_a_part_have_its_rows(tmp_path):
     report = tufted.laplacian_by_tiles(tmp_path / "points.npy", tmp_path / "out", where="z=0..2")
     np.testing.assert_array_equal(np.load(tmp_path / "out" / "file_row.npy"), np.flatnonzero(points[:, 2] >= 0))
     assert report["points"] == (points[:, 2] >= 0).sum()
+    with open(tmp_path / "out" / "report.json", encoding="utf-8") as file:
+        assert json.load(file)["selection"] == {"where": ["z=0..2"]}
 
 
 def test_mistakes_are_named(tmp_path):

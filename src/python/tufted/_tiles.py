@@ -3,6 +3,8 @@ import json
 import os
 import warnings
 
+import numpy as np
+
 from . import _arguments as check
 from . import _tufted
 from ._clouds import selection_of
@@ -22,7 +24,7 @@ def laplacian_by_tiles(source, out, *, memory=4e9, preset="clean", keep_noise=Fa
     preset: as in PointCloud; those other than "clean" need keep_noise=True, as tiles do not move noisy points.
     neighbors, mollify: as in PointCloud. where, crop, polygon, thin: as in read(), for files.
     threads: at most this many; 0: one per processor. progress: called with stage and fraction, see Surface.
-    Returns the report, a dict, as in out/report.json. Raises IoError if a file cannot be read or written.
+    Returns a dict, the member "report" of out/report.json. Raises IoError if a file cannot be read or written.
     """
     name = "laplacian_by_tiles"
     preset, keep_noise = check.text(name, "preset", preset), check.flag(name, "keep_noise", keep_noise)
@@ -30,14 +32,19 @@ def laplacian_by_tiles(source, out, *, memory=4e9, preset="clean", keep_noise=Fa
         raise InvalidInput(f"{name}: preset = {preset!r}, must be 'clean' unless keep_noise is True")
     is_file = isinstance(source, (str, os.PathLike))
     selection = selection_of(where, crop, polygon, thin)
-    if not is_file and (where or crop is not None or polygon is not None or thin):
+    chosen = {"where": [where] if isinstance(where, str) else list(where), "thin": float(thin) if thin else 0,
+              "crop": [] if crop is None else np.ravel(crop).tolist(),
+              "polygon": [] if polygon is None else np.asarray(polygon).tolist()}
+    chosen = {key: value for key, value in chosen.items() if value}
+    if chosen and not is_file:
         raise InvalidInput(f"{name}: where, crop, polygon or thin is given, must not be for points")
     source = check.path(name, "source", source) if is_file else check.rows_of_three(name, "source", source)
     out = check.path(name, "out", out)
     sentences = _tufted.write_by_tiles(
-        out, source, selection, preset, keep_noise, check.number(name, "memory", memory),
-        check.whole(name, "neighbors", neighbors, 0), check.number(name, "mollify", mollify),
-        check.whole(name, "threads", threads, 0), check.callback(name, progress))
+        out, source, selection, json.dumps(chosen) if chosen else "", preset, keep_noise,
+        check.number(name, "memory", memory), check.whole(name, "neighbors", neighbors, 0),
+        check.number(name, "mollify", mollify), check.whole(name, "threads", threads, 0),
+        check.callback(name, progress))
     for sentence in sentences:
         warnings.warn(f"{name}: {sentence}", TuftedWarning, stacklevel=3)
     with open(os.path.join(out, "report.json"), encoding="utf-8") as file:

@@ -18,19 +18,23 @@ class Sheets {
   Sheets(const Points& points, const IntrinsicTriangulation& cover, double apart, double shrunk)
       : points_(points), cover_(cover), apart_(apart), shrunk_(shrunk) {}
 
+  /// From a triangle of the mesh to its front or back.
   Eigen::Vector3d shift(int face) const {
     const auto& [i, j, k] = cover_.faces[static_cast<std::size_t>(face)];
     const Eigen::Vector3d a = points_.row(i), b = points_.row(j), c = points_.row(k);
     return apart_ * (b - a).cross(c - a).normalized();  // the corners of a back run the other way
   }
+  /// The middle of a drawn face.
   Eigen::Vector3d middle(int face) const {
     const auto& [i, j, k] = cover_.faces[static_cast<std::size_t>(face)];
     return Eigen::Vector3d(points_.row(i) + points_.row(j) + points_.row(k)) / 3 + shift(face);
   }
+  /// The corner of a drawn face at which a side begins.
   Eigen::Vector3d corner(int side) const {
     const Eigen::Vector3d at = points_.row(tail(cover_, side)), around = middle(side / 3);
     return around + shrunk_ * (at + shift(side / 3) - around);
   }
+  /// The corners of a drawn face.
   std::vector<Eigen::Vector3d> corners(int face) const {
     return {corner(3 * face), corner(3 * face + 1), corner(3 * face + 2)};
   }

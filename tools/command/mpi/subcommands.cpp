@@ -124,7 +124,7 @@ struct HarmonicByRanks : MpiSubcommand {
   void check(std::int64_t number) override {
     for (const Row& row : readRows(file)) {
       if (row.numbers.size() != 2) throw tufted::IoError(row.name + ": is not INDEX VALUE");
-      points.push_back(pointOf(row.numbers[0], number, row.name));
+      points.push_back(pointOf(row.numbers[0], number, row.name + ": " + numberText(row.numbers[0])));
       values.push_back(row.numbers[1]);
       names.push_back(row.name);
     }
@@ -174,6 +174,7 @@ struct DistanceByRanks : MpiSubcommand {
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (rows[i] < 0) results.warnings.push_back("--source " + given[i] + " takes no part, and is left out");
     rows.erase(std::remove(rows.begin(), rows.end(), -1), rows.end());
+    if (rows.empty() && !given.empty()) throw tufted::InvalidInput("--source: none of the points takes part");
     add(results, "distance", distance(laplacian, rows, &results.solve.emplace()), infinity);
   }
 
