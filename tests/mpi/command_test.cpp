@@ -122,6 +122,7 @@ TEST_F(TuftedMpi, WarnsOfSourcesThatTakeNoPart) {
   const Eigen::MatrixXd distance = tufted::readArray(dir_ / "out/distance.npy");
   EXPECT_TRUE(std::isinf(distance(0, 0)));
   EXPECT_EQ(distance(5, 0), 0);
+  expectRefused({"distance", cloud, "--source", "0"}, 2, "--source: none of the points takes part");
 }
 
 TEST_F(TuftedMpi, NeverOverwritesItsInput) {

@@ -174,7 +174,8 @@ struct DistanceByRanks : MpiSubcommand {
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (rows[i] < 0) results.warnings.push_back("--source " + given[i] + " takes no part, and is left out");
     rows.erase(std::remove(rows.begin(), rows.end(), -1), rows.end());
-    if (rows.empty() && !given.empty()) throw tufted::InvalidInput("--source: none of the points takes part");
+    if (rows.empty() && !points.empty())  // in process 0
+      throw tufted::InvalidInput("--source: none of the points takes part");
     add(results, "distance", distance(laplacian, rows, &results.solve.emplace()), infinity);
   }
 
