@@ -96,6 +96,8 @@ TEST_F(TuftedMpi, MistakesAreRefusedWithOneMessageAndNoResult) {
   expectRefused({"spectrum", in("missing.xyz")}, 1, in("missing.xyz") + ": no such file");
   expectRefused({"spectrum", cloud_, "--cont", "3"}, 2, "The following argument");
   expectRefused({"distance", cloud_, "--source", "3,1200"}, 2, "--source 1200 is no index in [0, 1200)");
+  expectRefused({"distance", dir_.write("nan.xyz", "nan 0 0\n" + sphere(900)), "--source", "0"}, 2,
+                "--source: none of the points takes part");
   expectRefused({"poisson", cloud_}, 2, "");
   expectRefused({"spectrum", cloud_, "--count", "0"}, 2, "--count: ");
   expectRefused({"spectrum", cloud_, "--count", "1000"}, 2, "spectrum: k = 1000, must be in [1, 400]");
@@ -122,7 +124,6 @@ TEST_F(TuftedMpi, WarnsOfSourcesThatTakeNoPart) {
   const Eigen::MatrixXd distance = tufted::readArray(dir_ / "out/distance.npy");
   EXPECT_TRUE(std::isinf(distance(0, 0)));
   EXPECT_EQ(distance(5, 0), 0);
-  expectRefused({"distance", cloud, "--source", "0"}, 2, "--source: none of the points takes part");
 }
 
 TEST_F(TuftedMpi, NeverOverwritesItsInput) {
