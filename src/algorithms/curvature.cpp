@@ -40,8 +40,8 @@ constexpr double confidence = 0.7;
 /// Where the fitted surface is steeper than this over its plane, the plane is turned to be tangent and the heights are
 /// measured anew. With 0.001 a sphere of 1,000 points is exact to 1.5e-5 only.
 constexpr double exact_slope = 1e-5;
-/// The same for windows of noisy points. An image takes two thirds of the time that it takes with 1e-5, and the errors
-/// of a sphere and a torus with 1 % noise stay.
+/// The plane of a window of noisy points is turned only where the surface is steeper than this over it. A depth image
+/// takes two thirds of the time that it takes with 1e-5, and the errors of a sphere and a torus with 1 % noise stay.
 constexpr double noisy_slope = 1e-2;
 /// Maximum number of turns of the plane for one window. With one turn the error of half a cylinder is twenty times as
 /// large if the given normals lean by 29 degrees.

@@ -138,7 +138,7 @@ void NeighborhoodFinder::refine(int p, Neighborhood& neighborhood, OffsetBuffer&
   }
   neighborhood.fit_radius = neighborhood.radius;
   neighborhood.thick = areThick(neighborhood.axes);
-  neighborhood.along_cable = neighborhood.grown && haveThickFew(offsets.view());
+  neighborhood.cable = neighborhood.grown && haveThickFew(offsets.view());
   if (!splitsSheets()) return;
   if (neighborhood.grown) {  // the nearest few may have changed
     std::array<PrincipalAxes, nested_sets> axes;

@@ -24,14 +24,14 @@ struct Neighborhood {
   PrincipalAxes axes;
   /// of the nearest few_neighbors, if there are more neighbours
   std::array<PrincipalAxes, few_neighbors.size()> axes_of_few;
-  int k = 0;                 ///< number of neighbours that were searched
-  double radius = 0;         ///< radius of the ball that was searched
-  double fit_radius = 0;     ///< `radius` when the plane was fitted, S(p)
-  bool grown = false;        ///< whether more than the caller's k neighbours were taken for the plane
-  bool split = false;        ///< whether neighbours on another sheet were removed
-  bool restored = false;     ///< whether all were kept because the rest was no plane
-  bool thick = false;        ///< whether all neighbours were as thick as wide
-  bool along_cable = false;  ///< whether the nearest few were, while more lay along a line
+  int k = 0;              ///< number of neighbours that were searched
+  double radius = 0;      ///< radius of the ball that was searched
+  double fit_radius = 0;  ///< `radius` when the plane was fitted, S(p)
+  bool grown = false;     ///< whether more than the caller's k neighbours were taken for the plane
+  bool split = false;     ///< whether neighbours on another sheet were removed
+  bool restored = false;  ///< whether all were kept because the rest was no plane
+  bool thick = false;     ///< whether all neighbours were as thick as wide
+  bool cable = false;     ///< whether the nearest few were as thick as wide, and more of them lay along a line
   bool wrapped = false;   ///< whether steep neighbours were left out, as the neighbourhood reaches around a thin part
   bool isolated = false;  ///< whether nearly all neighbours belong to other sheets
 };

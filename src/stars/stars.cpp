@@ -78,7 +78,7 @@ class StarBuilder {
     state.grown_neighborhoods += neighborhood.grown ? 1 : 0;
     state.split_neighborhoods += neighborhood.split ? 1 : 0;
     state.isolated += neighborhood.isolated ? 1 : 0;
-    state.thick += (neighborhood.thick || neighborhood.along_cable) && !neighborhood.split ? 1 : 0;
+    state.thick += (neighborhood.thick || neighborhood.cable) && !neighborhood.split ? 1 : 0;
     if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0))
       neighborhood.axes.normal = source_.normals.row(p);
     support_.normals.row(p) = neighborhood.axes.normal;
