@@ -14,7 +14,7 @@ enum class Growth {
 enum class StarSearch {
   once,      ///< once, from twice as many, if it is closed but a circumcircle leaves the ball that was searched
   thorough,  ///< until all circumcircles of a closed star lie in the ball that was searched, from up to twice as many;
-             ///< an open star up to two times, in case it closes
+             ///< an open star up to two times, in case it closes; both from more where other stars show the need
 };
 
 /// Which triangles of the stars are dropped, by their circumradius compared with the neighbourhoods of their corners.

@@ -46,7 +46,7 @@ struct Report {
   /// Median of Laplacian::noise over the points that were moved, in the caller's unit; 0 if none was.
   double noise = 0;
   std::int64_t grown_stars = 0;        ///< closed stars computed again because a circumcircle left the searched ball
-  std::int64_t closed_stars = 0;       ///< open stars that closed with two or four times the neighbours
+  std::int64_t closed_stars = 0;       ///< open stars that closed with more neighbours
   std::int64_t open_stars = 0;         ///< points whose star is open
   std::int64_t dropped_triangles = 0;  ///< star triangles removed: filtered, of outliers, too flat, across jumps
   std::int64_t settled_diagonals = 0;  ///< quadrilaterals whose stars were made to agree, see CloudSteps

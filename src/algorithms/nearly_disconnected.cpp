@@ -10,7 +10,7 @@ namespace tufted {
 namespace {
 
 /// Weights below this part of the smaller diagonal do not join, see Components.
-constexpr double least_share = 1e-14;
+constexpr double least_link_share = 1e-14;
 
 struct Link {
   int i, j;
@@ -29,7 +29,7 @@ std::optional<WeakJoint> weakestOf(std::vector<Link>& links, const std::vector<i
   });
   DisjointSets all(count + 1), before(count + 1);
   auto last = links.begin();
-  for (auto link = links.begin(); link != links.end() && link->share > least_share; ++link)
+  for (auto link = links.begin(); link != links.end() && link->share > least_link_share; ++link)
     if (all.unite(link->i, link->j)) last = link;
   if (last < weak || last == links.end()) return std::nullopt;
   for (auto link = links.begin(); link != last; ++link) before.unite(link->i, link->j);

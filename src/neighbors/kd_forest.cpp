@@ -13,7 +13,7 @@ using Index = flann::KDTreeSingleIndex<flann::L2_Simple<double>>;
 
 /// Least number of points of one of several trees: searching smaller ones costs more than building them in parallel
 /// saves.
-constexpr int least_points = 8192;
+constexpr int least_points_per_tree = 8192;
 /// Greatest number of points in a leaf.
 constexpr int leaf_size = 16;
 const flann::SearchParams all_checks{flann::FLANN_CHECKS_UNLIMITED};
@@ -50,7 +50,7 @@ struct KdForest::Tree {
 
 KdForest::KdForest(const PointsView& points, const Workers& workers)
     : size_(static_cast<int>(points.rows())),
-      trees_(static_cast<std::size_t>(std::clamp(size_ / least_points, 1, workers.count()))) {
+      trees_(static_cast<std::size_t>(std::clamp(size_ / least_points_per_tree, 1, workers.count()))) {
   const std::int64_t count = std::ssize(trees_);
   workers.forBlocks("tree", count, 1, [&](std::int64_t begin, std::int64_t, int) {
     trees_[begin].build(points, static_cast<int>(size_ * begin / count), static_cast<int>(size_ * (begin + 1) / count));

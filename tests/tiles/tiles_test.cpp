@@ -250,6 +250,12 @@ TEST(Tiles, OfUnevenDensityAreThoseOfTheWhole) {
   expectSameByTiles(shapes::square(20000, shapes::Sampling::densityStep(400)).points);
 }
 
+// There stars show that the searches of others were too narrow, across the borders of tiles and along rims.
+TEST(Tiles, OfStepsOfDensityAreThoseOfTheWhole) {
+  expectSameByTiles(shapes::square(8000, shapes::Sampling::densityStep(100)).points, scan());
+  expectSameByTiles(shapes::torus(8000, shapes::Sampling::densityStep(16)).points, scan());
+}
+
 /// Faces around a point by their corners: how many there are, and the sums of their sides. Copies whose sides differ in
 /// their last bits are one.
 using FacesAround = std::map<std::array<int, 3>, Eigen::Vector4d>;
